@@ -61,6 +61,7 @@ table =
     Layer Folder "Frame" (Only ["Toolpath", "Machine"]),
     Layer Folder "Tape" (Only ["Frame", "Machine"]),
     Layer Folder "Control" (Only ["Frame", "Machine"]),
+    Layer Folder "Pulse" (Only ["Control", "Tape"]),
     Layer Folder "Verify" Above,
     Layer Folder "Draw" Above,
     Layer Folder "Project" (Only ["Sheet", "Toolpath", "Machine"]),
@@ -120,6 +121,7 @@ stageData =
       ( "Machine.Machine",
         [ "Machine.Axis",
           "Machine.Commands",
+          "Machine.Controller",
           "Machine.Feeds",
           "Machine.FrameLayout",
           "Machine.TapeCode"
@@ -278,6 +280,7 @@ spec = do
                 "Frame",
                 "Tape",
                 "Control",
+                "Pulse",
                 "Verify",
                 "Project"
               ]

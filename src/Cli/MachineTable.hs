@@ -9,6 +9,7 @@ where
 
 import Base.Decimal qualified as Decimal
 import Base.Quantity (Feed (..), Pulses (..))
+import Cli.ControllerTable (controllerRows)
 import Cli.Table (Align (..))
 import Cli.Table qualified as Table
 import Data.Bits (testBit)
@@ -53,6 +54,7 @@ machineDetails m =
         (feedHeading m, [ToRight, ToRight, ToLeft], feedRows m),
         ("Slowing down", [ToLeft, ToLeft], brakingRows m),
         ("The commands", [ToLeft, ToLeft], commandRows m),
+        ("The controller", [ToLeft, ToLeft], maybe [] controllerRows (controller m)),
         ( "How it is known",
           [ToLeft, ToLeft],
           [[markWord mark, fact] | DescribedValue mark fact <- describedValues m]

@@ -19,6 +19,8 @@ import Base.Quantity (Mm (..))
 import Base.Region (Region)
 import Data.Text (Text)
 import Data.Text qualified as Text
+import Machine.ControllerError (ControllerFault)
+import Machine.ControllerError qualified as ControllerError
 import Report.Report
   ( Label (..),
     Report (..),
@@ -65,6 +67,8 @@ data Error
     BadTable Region TableFault
   | -- | mistake in the numbers of a command
     BadCommand Region CommandFault
+  | -- | conflict between the controller and the other sections
+    BadController Region ControllerFault
   deriving stock (Eq, Ord, Show)
 
 -- | Mistake in the holes of a row.
@@ -271,6 +275,7 @@ toReport err = case err of
   BadFrame region fault -> frameReport region fault
   BadTable region fault -> tableReport region fault
   BadCommand region fault -> commandReport region fault
+  BadController region fault -> ControllerError.toReport region fault
   where
     listed cs =
       Text.intercalate ", " (map (quote . Text.pack . unquoted . show) (take 12 cs))

@@ -18,12 +18,13 @@ import Base.Result qualified as Result
 import Data.Char (isAlphaNum)
 import Data.List.NonEmpty (NonEmpty)
 import Data.List.NonEmpty qualified as NonEmpty
-import Data.Maybe (isJust)
+import Data.Maybe (isJust, maybeToList)
 import Data.Text (Text)
 import Data.Text qualified as Text
 import Machine.CodeFromText qualified as CodeFromText
 import Machine.CommandFromText qualified as CommandFromText
 import Machine.Completeness qualified as Completeness
+import Machine.ControllerFromText qualified as ControllerFromText
 import Machine.Error (Error (..), FrameFault (BrakedFrequencies), ServiceFault (..))
 import Machine.FeedFromText qualified as FeedFromText
 import Machine.FrameFromText (LocatedLayout (locatedItems, separatorRegion), quotedText)
@@ -66,7 +67,9 @@ machineFrom text ss = marked *> machine
         <$> required "machine" "machine my-mill \"The mill in hall 3\"" nameFrom whole
         <*> sections whole
         <* allowKeys
-          ["machine", "tape", "code", "arcs", "frame", "feeds", "braking", "commands", "limits"]
+          ( Text.words
+              "machine tape code arcs frame feeds braking commands limits controller"
+          )
           ["axis"]
           whole
 
@@ -80,7 +83,8 @@ data Sections = Sections
     locatedFeeds :: Located Feeds,
     locatedBraking :: Located Braking,
     commandContext :: CommandFromText.CommandContext,
-    programLimits :: Limits
+    programLimits :: Limits,
+    locatedController :: Maybe (Located Controller)
   }
 
 assemble :: [DescribedValue] -> (Text, Text) -> Sections -> Machine
@@ -100,6 +104,7 @@ sections whole =
       <*> required "braking" "braking { … }" (located FeedFromText.braking) whole
       <*> optional "commands" CommandFromText.noCommands CommandFromText.commands whole
       <*> optional "limits" (Limits Nothing) limitsFrom whole
+      <*> optional "controller" Nothing (fmap Just . located ControllerFromText.controller) whole
   )
     >>= crossChecked
   where
@@ -134,7 +139,11 @@ crossChecked s = Result.failing faults s
             (separatorRegion frame, separator (FrameFromText.layout frame)),
           FeedFromText.checkFeeds (locatedFeeds s) (locatedBraking s) feedCapacity,
           brakedFrameFaults machine (region (locatedBraking s)),
-          CommandFromText.check machine (commandContext s)
+          CommandFromText.check machine (commandContext s),
+          concat
+            [ ControllerFromText.check machine r c
+              | Located r c <- maybeToList (locatedController s)
+            ]
         ]
     feedCapacity = (\w -> 10 ^ digits (form w) - 1) <$> wordFor machine FeedWord
 
@@ -165,6 +174,7 @@ machineOf s =
       braking = value (locatedBraking s),
       commandWords = CommandFromText.allWords (commandContext s),
       limits = programLimits s,
+      controller = value <$> locatedController s,
       describedValues = []
     }
 

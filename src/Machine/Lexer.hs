@@ -81,7 +81,8 @@ tokensFrom formula at rest = case Text.uncons rest of
 -- formula; @c@ is the first character of @rest@.
 token :: Bool -> Char -> Text -> (Token_, Int)
 token formula c rest
-  | Just unit <- find (`Text.isPrefixOf` rest) ["mm/min", "mm/s2"] = (Name unit, Text.length unit)
+  | Just unit <- find (`Text.isPrefixOf` rest) ["mm/min", "mm/s2", "rows/s"] =
+    (Name unit, Text.length unit)
   | isAlpha c || c == '_' = let w = word formula rest in (Name w, Text.length w)
   | isDigit c = numeral rest
   | c == '"' = quoted (Text.drop 1 rest)

@@ -77,6 +77,9 @@ module Machine.Machine
     -- * Limits
     Limits (..),
 
+    -- * The controller
+    Controller (..),
+
     -- * Provenance
     DescribedValue (..),
     Provenance (..),
@@ -97,6 +100,7 @@ import Machine.Commands
     CompensationCommands (..),
     noCommandWords,
   )
+import Machine.Controller (Controller (..))
 import Machine.Feeds
   ( Braking (..),
     BrakingForm (..),
@@ -143,6 +147,8 @@ data Machine = Machine
     braking :: Braking,
     commandWords :: CommandWords,
     limits :: Limits,
+    -- | Nothing if the description does not say how the controller makes pulses
+    controller :: Maybe Controller,
     -- | all values of the description, for the list of their provenance
     describedValues :: [DescribedValue]
   }

@@ -19,6 +19,8 @@ module Tape.Punch
     read,
     readExpected,
     readPunched,
+    TapeFrame (..),
+    readInTurn,
     Damage (..),
     Reason (..),
     toReport,
@@ -195,6 +197,69 @@ readPunched machine start punched tape
       Left
         (Damage 1 (Just (1 + length (takeWhile id (zipWith (==) punched frames)))) Nothing Misread)
 
+-- | Frame as a controller reads it from the tape.
+data TapeFrame = TapeFrame
+  { frameRead :: Frame,
+    -- | count of rows from the end of the frame before to the end of this frame. For the first
+    -- frame they begin with the tape, leader and opening symbols included.
+    rowsRead :: Int,
+    -- | for each of the last rows, up to the end of the frame: true for the last row of a word
+    wordEnds :: ~[Bool]
+  }
+
+-- | Frames of a tape, read one after the other, as a controller does. The list ends with the first
+-- damage; Nothing at the proper end of the tape. The cutter begins at the position @start@, in
+-- pulses.
+readInTurn :: Machine -> Pulses3 -> Tape -> LazyList (Maybe Damage) TapeFrame
+readInTurn machine start (Tape raw) = case firstFrameRow source of
+  Left fault -> LazyList.End (Just (damage source Nothing fault))
+  Right begin ->
+    go
+      (RowCursor {keptRow = 0, rawRow = 0})
+      (itemsFrom (,,) source begin (ModalState.initial givesHeight start))
+  where
+    source = sourceOf (Layout.fromMachine machine) raw
+    -- On a tape of positions the whole tape decides whether the first frame gives the height.
+    givesHeight =
+      hasPositions source
+        && either (const True) ModalState.changesHeight (read machine start (Tape raw))
+    go !cursor list = case list of
+      LazyList.End fault -> LazyList.End ((\(n, f) -> damage source n f) <$> fault)
+      LazyList.Next (state, f, after) more ->
+        let !cursor' = movedTo source after cursor
+         in LazyList.Next
+              TapeFrame
+                { frameRead = f,
+                  rowsRead = rawRow cursor' - rawRow cursor,
+                  wordEnds = endsOfWords (FrameWriter.frameRows (layout source) state f)
+                }
+              (go cursor' more)
+
+-- | For each row: true if the row belongs to a word and the next one does not belong to the same.
+endsOfWords :: [MarkedRow] -> [Bool]
+endsOfWords marked = zipWith isEnd marked (map Just (drop 1 marked) <> [Nothing])
+  where
+    isEnd m after = case kind m of
+      InWord c _ _ -> maybe True (\n -> not (isIn c n)) after
+      _ -> False
+    isIn c m = case kind m of
+      InWord d _ _ -> c == d
+      _ -> False
+
+-- | Row of the tape, counted without the rows that the tape code skips, and counted with them.
+data RowCursor = RowCursor {keptRow :: Int, rawRow :: Int}
+
+-- | Moves a cursor on to the row with the index @at@ in 'kept'.
+movedTo :: Source -> Int -> RowCursor -> RowCursor
+movedTo source at cursor
+  | ByteString.null (skipped source) = RowCursor {keptRow = at, rawRow = at}
+  | otherwise = go (keptRow cursor) (rawRow cursor)
+  where
+    go k r
+      | k >= at || r >= ByteString.length (raw source) = RowCursor {keptRow = at, rawRow = r}
+      | ByteString.elem (ByteString.index (raw source) r) (skipped source) = go k (r + 1)
+      | otherwise = go (k + 1) (r + 1)
+
 -- | True if reading a tape gives exactly the frames @expected@, without a fault.
 holds :: Machine -> Pulses3 -> [Frame] -> Tape -> Bool
 holds machine start expected (Tape raw) = case firstFrameRow source of
@@ -346,7 +411,17 @@ afterBlanks source at =
 -- The list ends with 'Nothing' at the proper end of the tape. Otherwise it ends with the first
 -- fault and the number of the faulty frame; a fault outside of all frames has no number.
 framesFrom :: Source -> Int -> State -> LazyList (Maybe (Maybe Int, RowFault)) Frame
-framesFrom source = go
+framesFrom = itemsFrom (\_ f _ -> f)
+
+-- | Variant of 'framesFrom' whose items are made by a function from the modal state before a frame,
+-- the frame, and the index of the row after the frame.
+itemsFrom ::
+  (State -> Frame -> Int -> a) ->
+  Source ->
+  Int ->
+  State ->
+  LazyList (Maybe (Maybe Int, RowFault)) a
+itemsFrom item source = go
   where
     go !at !state = case endAt source at of
       Ended -> LazyList.End Nothing
@@ -360,7 +435,7 @@ framesFrom source = go
               Left fault -> wrong (Just n) fault
               Right afterGap ->
                 let !state' = Layout.after (layout source) state f
-                 in LazyList.Next f (go afterGap state')
+                 in LazyList.Next (item state f next) (go afterGap state')
       where
         n = ModalState.ordinal state
     wrong n fault = LazyList.End (Just (n, fault))

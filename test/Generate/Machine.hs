@@ -112,6 +112,7 @@ blankMachine forms arcKind how feedTable =
       Machine.braking = Braking 5 SlowFrames,
       Machine.commandWords = noCommandWords,
       limits = Limits Nothing,
+      controller = Nothing,
       describedValues = []
     }
 

@@ -15,6 +15,7 @@ import Data.Text (Text)
 import Data.Text qualified as Text
 import Data.Word (Word8)
 import Files (expected, filesBelow, readText)
+import Generate.Controller (controllerFor)
 import Generate.Machine (machine)
 import Machine.BuiltIn qualified as BuiltIn
 import Machine.Error (Error)
@@ -258,14 +259,16 @@ furnished m = do
   commands' <- commandsFor m
   let hasBrakingHole = BrakingHole `elem` concatMap (service . form) (wordsOf m)
       canBrakeByFrames = hasBrakingHole && measured == AlongPath
-  pure
-    m
-      { title = heading,
-        braking = Braking a (if canBrakeByFrames then brakingForm' else ByControl),
-        limits = Limits contours,
-        feeds = (feeds m) {feedMeasure = measured, rule = rounding, rapidFeed = rapid'},
-        commandWords = commands'
-      }
+  let whole =
+        m
+          { title = heading,
+            braking = Braking a (if canBrakeByFrames then brakingForm' else ByControl),
+            limits = Limits contours,
+            feeds = (feeds m) {feedMeasure = measured, rule = rounding, rapidFeed = rapid'},
+            commandWords = commands'
+          }
+  control <- controllerFor whole
+  pure whole {Machine.controller = control}
 
 -- | Random commands for the words and bits of a machine.
 commandsFor :: Machine -> Gen CommandWords

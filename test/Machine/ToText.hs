@@ -13,6 +13,7 @@ import Data.List.NonEmpty qualified as NonEmpty
 import Data.Map.Strict qualified as Map
 import Data.Text (Text)
 import Data.Text qualified as Text
+import Machine.ControllerToText (controllerLines)
 import Machine.Machine
 import Numeric (showHex)
 
@@ -29,6 +30,7 @@ toText m =
         <> block "feeds" (feedLines (feeds m))
         <> block "braking" (brakingLines (braking m))
         <> block "commands" (commandLines (commandWords m))
+        <> concat [block "controller" (controllerLines c) | Just c <- [controller m]]
         <> block "limits" ["contours " <> Decimal.whole k | Just k <- [mostContours (limits m)]]
     )
   where

@@ -62,7 +62,8 @@ raisedElsewhere =
         "E1011",
         "E1012",
         "E1013",
-        "E1014"
+        "E1014",
+        "E1015"
       ]
     ),
     ( "a tape and its program",

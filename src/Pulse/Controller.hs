@@ -1,0 +1,53 @@
+-- | The controller of a machine: rows of a tape go in, pulses with their times come out.
+--
+-- A controller is driven by the tape and the machine description alone. It does not know the part
+-- program, the toolpath or the planned frames.
+module Pulse.Controller
+  ( run,
+    ticksPerSecond,
+  )
+where
+
+import Base.PulseVector (Pulses3)
+import Data.List.NonEmpty qualified as NonEmpty
+import Machine.Controller (Controller (..), IntegratorControl (..), StepControl (..))
+import Machine.Machine
+  ( CommandName,
+    CommandValue (..),
+    CommandWord (..),
+    CommandWords (..),
+    Machine,
+  )
+import Machine.Machine qualified as Machine
+import Pulse.ControllerRun (ControllerRun)
+import Pulse.IntegratorRun qualified as IntegratorRun
+import Pulse.StepRun qualified as StepRun
+import Tape.Punch qualified as Punch
+import Tape.Tape (Tape)
+
+-- | Run of a tape. The arguments are the correction of the feed as a factor, and the position of
+-- the cutter before the tape, in pulses. 'Nothing' if the model of the controller makes no pulses.
+run :: Machine -> Double -> Pulses3 -> Tape -> Maybe ControllerRun
+run machine correction start tape = case Machine.controller machine of
+  Nothing -> Nothing
+  Just (Stepping c) -> Just (StepRun.run machine c correction final frames)
+  Just (Integrating c) -> Just (IntegratorRun.run machine c correction final frames)
+  Just (Planning _) -> Nothing
+  where
+    final = lastCommands machine
+    frames = Punch.readInTurn machine start tape
+
+-- | Frequency of the clock whose ticks a run counts; 'Nothing' if no model of the machine's
+-- controller makes pulses.
+ticksPerSecond :: Machine -> Maybe Int
+ticksPerSecond machine = case Machine.controller machine of
+  Nothing -> Nothing
+  Just (Stepping c) -> Just (stepClock c)
+  Just (Integrating c) -> Just (clock c)
+  Just (Planning _) -> Nothing
+
+-- | Commands of the last frame of a program; none if the machine's tapes have no such frame.
+lastCommands :: Machine -> [(CommandName, Int)]
+lastCommands machine = case reverse (finish (Machine.commandWords machine)) of
+  [] -> []
+  final : _ -> [(commandName w, v) | w@CommandWord {value = Fixed v} <- NonEmpty.toList final]

@@ -1,0 +1,99 @@
+-- | Path of one frame in pulses, with its length and the feed that the frame asks.
+--
+-- Lengths and feeds are floating-point numbers. A controller rounds them once, to the whole number
+-- in its cell V; the pulses themselves do not depend on them.
+module Pulse.FramePath
+  ( FramePath (..),
+    fromFrame,
+    pathLength,
+    leadingPulses,
+    allPulses,
+    endOf,
+    askedFeed,
+    AskedFeed (..),
+  )
+where
+
+import Base.PulseVector (Pulses2 (..), Pulses3 (..))
+import Base.Quantity (Mm (..), Pulses (..))
+import Control.Motion qualified as Motion
+import Data.Maybe (fromMaybe)
+import Frame.Frame (Frame (..), FrameMotion (..))
+import Geometry.Carrier (Sense (..))
+import Machine.Machine (Axis (..), FeedMeasure (..), Machine)
+import Machine.Machine qualified as Machine
+import Pulse.Steps (Pulses5 (..))
+
+-- | Path of a frame.
+data FramePath
+  = -- | straight, with these increments
+    Line Pulses5
+  | -- | Arc in the plane of x and y. Its start and its end are relative to the centre.
+    Arc {clockwise :: Bool, from :: (Int, Int), to :: (Int, Int)}
+  deriving stock (Eq, Show)
+
+-- | Path of a frame; 'Nothing' for a frame without motion. An arc whose centre is its start or its
+-- end is a line, as in "Control.Motion".
+fromFrame :: Frame -> Maybe FramePath
+fromFrame f = case motion f of
+  NoMotion -> Nothing
+  Rapid -> Just straight
+  Linear -> Just straight
+  Circular sense
+    | Motion.isRound f ->
+      Just Arc {clockwise = sense == Clockwise, from = (-i, -j), to = (x - i, y - j)}
+    | otherwise -> Just straight
+  where
+    Pulses3 (Pulses x) (Pulses y) (Pulses z) = increment f
+    Pulses2 (Pulses i) (Pulses j) = centre f
+    straight = Line (Pulses5 x y z 0 0)
+
+-- | Length of a path: in mm along x, y and z, or in degrees if only rotary axes move. An arc is
+-- measured on the circle through its start.
+pathLength :: Machine -> FramePath -> Double
+pathLength machine path = case path of
+  Line (Pulses5 x y z _ _) ->
+    let square n a = (fromIntegral n * pulse a) * (fromIntegral n * pulse a)
+     in sqrt (square x X + square y Y + square z Z)
+  Arc {clockwise, from = (a, b), to = (c, d)} ->
+    let turn = atan2 (fromIntegral (a * d - b * c)) (fromIntegral (a * c + b * d)) :: Double
+        signed = if clockwise then negate turn else turn
+        sweep = if signed <= 0 then signed + 2 * pi else signed
+     in sqrt (fromIntegral (a * a + b * b)) * sweep * pulse X
+  where
+    pulse a = let Mm l = Machine.resolutionOf machine a in l
+
+-- | Pulses of the axis with most pulses, on a line.
+leadingPulses :: Pulses5 -> Int
+leadingPulses (Pulses5 x y z a b) = maximum (map abs [x, y, z, a, b])
+
+-- | Pulses of all axes, on a line.
+allPulses :: Pulses5 -> Int
+allPulses (Pulses5 x y z a b) = sum (map abs [x, y, z, a, b])
+
+-- | Position at the end of a path, relative to its beginning.
+endOf :: FramePath -> Pulses5
+endOf path = case path of
+  Line d -> d
+  Arc {from = (a, b), to = (c, d)} -> Pulses5 (c - a) (d - b) 0 0 0
+
+-- | Feed that a frame asks.
+data AskedFeed
+  = -- | in mm\/min along the path; in degrees a minute if only rotary axes move
+    Along Double
+  | -- | in pulses per second of the leading axis
+    OfLeadingAxis Double
+  deriving stock (Eq, Show)
+
+-- | Feed that a frame asks. A rapid move asks the feed of the machine's rapid moves.
+askedFeed :: Machine -> Frame -> AskedFeed
+askedFeed machine f = case Machine.feedMeasure (Machine.feeds machine) of
+  AlongPath -> Along value
+  LeadingAxis -> OfLeadingAxis value
+  where
+    code = case motion f of
+      Rapid -> Machine.rapidCode machine
+      NoMotion -> feedCode f
+      Linear -> feedCode f
+      Circular _ -> feedCode f
+    value = fromMaybe 0 (Machine.valueOf machine code)

@@ -1,0 +1,400 @@
+-- | Run of Н55-2Л: a feed integrator, a dispatcher, a buffer for the next frame, and the frame at
+-- work.
+--
+-- /Frames./ The rows of the next frame arrive from the reader while a frame is at work. When the
+-- frame is finished and the next one is read, a job transfers it, and the next frame begins at the
+-- last tick of that job. If the transfer fits before the next overflow, the integrator runs on.
+-- Otherwise both its cells are set to 0, and the machine stands still until the frame begins.
+--
+-- /Feed./ V is the feed along the path times the share of the leading axis. On a line the share is
+-- constant. On an arc a job computes it for the direction that the arc has some cycles later. The
+-- acceleration job changes the feed towards the feed that the frame asks, and down to the feed at
+-- the end of the frame in time. That feed is one from which the next frame can still stop; it is 0
+-- while the next frame is not read. Without an acceleration job the feed jumps.
+--
+-- Feeds here are in mm\/min along x, y and z, or in degrees a minute if only rotary axes move.
+module Pulse.IntegratorRun
+  ( run,
+  )
+where
+
+import Base.LazyList (LazyList)
+import Base.LazyList qualified as LazyList
+import Base.Quantity (Seconds (..))
+import Data.List (foldl')
+import Data.Maybe (isJust)
+import Frame.Frame qualified as Frame
+import Machine.Controller
+  ( ControlJob (..),
+    IntegratorControl (..),
+    JobRequest (..),
+    TapeReader (..),
+  )
+import Machine.Controller qualified as Controller
+import Machine.FrameLayout (CommandName)
+import Machine.Machine (Machine)
+import Pulse.ControllerRun
+  ( ControllerRun (..),
+    FrameStart (FrameStart),
+    JobRun (JobRun),
+    StopReason (..),
+    Tick,
+  )
+import Pulse.Dispatcher (Dispatcher (integrator, tick), Happening (..), Waiting (..))
+import Pulse.Dispatcher qualified as Dispatcher
+import Pulse.FeedIntegrator (FeedIntegrator (..))
+import Pulse.FramePath (FramePath)
+import Pulse.FramePath qualified as FramePath
+import Pulse.IntegratorFeed (FeedPlan (..))
+import Pulse.IntegratorFeed qualified as Feed
+import Pulse.Interpolator qualified as Interpolator
+import Pulse.Steps (Cycle (..))
+import Tape.Damage (Damage)
+import Tape.Punch (TapeFrame (..))
+
+-- | State of the control.
+data Control = Control
+  { setup :: Setup,
+    dispatcher :: Dispatcher Arrival Work,
+    buffer :: Buffer,
+    stage :: Stage,
+    -- | number of the frame at work, or of the last one; 0 before the first
+    number :: Int,
+    -- | feed at this moment
+    feed :: Double,
+    -- | frames that are still on the tape
+    onTape :: LazyList (Maybe Damage) TapeFrame
+  }
+
+-- | Constants of a run: the machine, its control, the correction of the feed as a factor, and the
+-- commands that end a program.
+data Setup = Setup
+  { machine :: Machine,
+    control :: IntegratorControl,
+    correction :: Double,
+    lastCommands :: [(CommandName, Int)]
+  }
+
+-- | Frame at work.
+data Stage
+  = -- | No frame is at work. The tick is the end of the last one; the flag is true if the transfer
+    -- of the next frame is requested.
+    Resting Tick Bool
+  | Moving FeedPlan
+
+-- | Buffer for the next frame.
+data Buffer
+  = -- | The frame is read: the rows that have not arrived, each with a flag for the last row of a
+    -- word; the count of jobs that are still to be done for rows that have arrived.
+    Filling TapeFrame Reading Int
+  | -- | The frame is read, since this tick.
+    Filled TapeFrame Tick
+  | -- | The tape has no further frame.
+    Exhausted (Maybe Damage)
+
+-- | Rows of a frame that have not arrived: the tick at which the reading began, the index of the
+-- next row from 1, and for each row, true for the last row of a word.
+data Reading = Reading Tick Int [Bool]
+
+-- | What arrives at a tick.
+data Arrival
+  = -- | the next row of the tape
+    Row
+  | -- | the request of a job, and how many more requests follow; 'Nothing' for no end
+    Due ControlJob (Maybe Int)
+
+-- | Work of a job. A character has a flag for the last row of a word.
+data Work = Work ControlJob Bool
+
+-- | Run of the frames of a tape. The third argument is the correction of the feed, a factor; the
+-- fourth lists the commands that end a program.
+run ::
+  Machine ->
+  IntegratorControl ->
+  Double ->
+  [(CommandName, Int)] ->
+  LazyList (Maybe Damage) TapeFrame ->
+  ControllerRun
+run machine control correction lastCommands frames =
+  proceed
+    ( reading
+        0
+        Control
+          { setup = Setup {machine, control, correction, lastCommands},
+            dispatcher = foldl' armed unarmed (jobs control),
+            buffer = Exhausted Nothing,
+            stage = Resting 0 False,
+            number = 0,
+            feed = 0,
+            onTape = frames
+          }
+    )
+  where
+    unarmed = Dispatcher.start (Controller.capacity control)
+    armed d j = case request j of
+      Periodic t -> Dispatcher.arrive (ticksOf control t) (Due j Nothing) d
+      AtAcceleration t -> Dispatcher.arrive (ticksOf control t) (Due j Nothing) d
+      _ -> d
+
+ticksOf :: IntegratorControl -> Seconds -> Tick
+ticksOf control = Controller.ticksIn (clock control)
+
+-- | Events from a state on, in which the unit is free.
+proceed :: Control -> ControllerRun
+proceed s = case stage s of
+  Resting t isRequested -> case buffer s of
+    Exhausted damage -> Stopped t (maybe TapeEnds Unreadable damage)
+    Filled _ _ | not isRequested -> case jobWith AtTransfer s of
+      Just j -> proceed (transferring t j s)
+      Nothing -> begin s
+    _ -> happening s
+  Moving _ -> happening s
+
+happening :: Control -> ControllerRun
+happening s = case Dispatcher.next (cycleOf (stage s)) (dispatcher s) of
+  Overflowed t d -> interpolate t s {dispatcher = d}
+  Worked t w d ->
+    JobDone
+      (JobRun (jobOf (work w)) (requested w) t (tick d))
+      (worked (work w) s {dispatcher = d})
+  Arrived t a d -> proceed (arrived t a s {dispatcher = d})
+  -- V is above 0 while a frame is at work, and rows arrive while a frame is read.
+  Idle -> Stopped (tick (dispatcher s)) TapeEnds
+  where
+    jobOf (Work j _) = j
+    cycleOf st = case st of
+      Resting _ _ -> 0
+      Moving p -> cycleTicks p
+
+-- Reading -----------------------------------------------------------------------------------------
+
+-- | Begins to read the next frame of the tape into the buffer at tick @t@.
+reading :: Tick -> Control -> Control
+reading t s = case onTape s of
+  LazyList.End damage -> s {buffer = Exhausted damage}
+  LazyList.Next f more ->
+    let flags = replicate (rowsRead f - length (wordEnds f)) False <> wordEnds f
+     in awaitRow s {buffer = Filling f (Reading t 1 flags) 0, onTape = more}
+
+-- | Lets the next row of the frame in the buffer arrive at its tick.
+awaitRow :: Control -> Control
+awaitRow s = case buffer s of
+  Filling _ (Reading since k (_ : _)) _ ->
+    let TapeReader {rowsPerSecond, startTime = Seconds t0} = reader (control (setup s))
+        ticksPerSecond = fromIntegral (clock (control (setup s)))
+        t = since + ceiling ((t0 + fromIntegral k / rowsPerSecond) * ticksPerSecond)
+     in s {dispatcher = Dispatcher.arrive t Row (dispatcher s)}
+  _ -> s
+
+-- | State after an arrival at tick @t@.
+arrived :: Tick -> Arrival -> Control -> Control
+arrived t a s = case a of
+  Due j count ->
+    let s' = requestJob t j False s
+        next = t + intervalOf (control (setup s)) j
+        again left = s' {dispatcher = Dispatcher.arrive next (Due j left) (dispatcher s')}
+     in case count of
+          Nothing -> again Nothing
+          Just n | n > 1 -> again (Just (n - 1))
+          Just _ -> s'
+  Row -> case buffer s of
+    Filling f (Reading since k (isWordEnd : flags)) pending ->
+      let s' = awaitRow s {buffer = Filling f (Reading since (k + 1) flags) pending}
+       in case jobWith AtCharacter s of
+            Just j -> requestJob t j isWordEnd (pendingBy 1 s')
+            Nothing -> characterRead t isWordEnd s'
+    _ -> s
+
+intervalOf :: IntegratorControl -> ControlJob -> Tick
+intervalOf control j = case request j of
+  Periodic t -> ticksOf control t
+  AtAcceleration t -> ticksOf control t
+  AfterCommand _ t _ -> ticksOf control t
+  AtCharacter -> 1
+  AtNumber -> 1
+  AtTransfer -> 1
+  AtCompensation -> 1
+  AtDirection _ _ -> 1
+
+-- | State after a character is in the buffer; the flag is true for the last one of a word.
+characterRead :: Tick -> Bool -> Control -> Control
+characterRead t isWordEnd s = case jobWith AtNumber s of
+  Just j | isWordEnd -> requestJob t j False (pendingBy 1 s)
+  _ -> filledIfRead t s
+
+-- | State with the frame marked as read if all its rows have arrived and all jobs for them are
+-- done.
+filledIfRead :: Tick -> Control -> Control
+filledIfRead t s = case buffer s of
+  Filling f (Reading _ _ []) 0 -> s {buffer = Filled f t}
+  _ -> s
+
+-- | Adds to the count of jobs that are still to be done for the frame in the buffer.
+pendingBy :: Int -> Control -> Control
+pendingBy n s = case buffer s of
+  Filling f rows pending -> s {buffer = Filling f rows (pending + n)}
+  Filled _ _ -> s
+  Exhausted _ -> s
+
+-- Jobs --------------------------------------------------------------------------------------------
+
+-- | First job of the control with the given request.
+jobWith :: JobRequest -> Control -> Maybe ControlJob
+jobWith r s = Controller.jobFor (== r) (control (setup s))
+
+-- | Requests a job at tick @t@.
+requestJob :: Tick -> ControlJob -> Bool -> Control -> Control
+requestJob t j flag s =
+  s
+    { dispatcher =
+        Dispatcher.request
+          Waiting {urgency = priority j, ticks = duration j, requested = t, work = Work j flag}
+          (dispatcher s)
+    }
+
+-- | Events after a job, at its last tick.
+worked :: Work -> Control -> ControllerRun
+worked (Work j flag) s = case request j of
+  AtCharacter -> proceed (characterRead t flag (pendingBy (-1) s))
+  AtNumber -> proceed (filledIfRead t (pendingBy (-1) s))
+  AtTransfer -> begin s
+  AtCompensation -> proceed s
+  AtDirection _ ahead -> proceed (onPlan (Feed.turnedTo ahead) s)
+  AtAcceleration time -> proceed (accelerate time s)
+  Periodic _ -> proceed s
+  AfterCommand {} -> proceed s
+  where
+    t = tick (dispatcher s)
+
+-- | Changes the plan of the frame at work, and sets the cell V for it.
+onPlan :: (FeedPlan -> FeedPlan) -> Control -> Control
+onPlan change s = case stage s of
+  Resting _ _ -> s
+  Moving p ->
+    let p' = change p
+        v = Feed.cell (control (setup s)) p' (feed s)
+     in s
+          { stage = Moving p',
+            dispatcher = Dispatcher.withFeed v (dispatcher s)
+          }
+
+-- | Changes the feed by one step of the acceleration in the given time.
+accelerate :: Seconds -> Control -> Control
+accelerate time s = case stage s of
+  Resting _ _ -> s
+  Moving p -> onPlan id s {feed = Feed.accelerated (control (setup s)) time p (endFeed s) (feed s)}
+
+-- | Feed at the end of the frame at work: one that the next frame asks at most, and from which it
+-- can still stop. 0 if the next frame is not read, or does not move.
+endFeed :: Control -> Double
+endFeed s = case buffer s of
+  Filled f _
+    | Just path <- FramePath.fromFrame (frameRead f) ->
+      min
+        (askedFeed (setup s) f)
+        (Feed.stoppable (control (setup s)) (FramePath.pathLength (machine (setup s)) path))
+  _ -> 0
+
+-- | Corrected feed that a frame asks.
+askedFeed :: Setup -> TapeFrame -> Double
+askedFeed k f =
+  correction k * case FramePath.askedFeed (machine k) (frameRead f) of
+    FramePath.Along v -> v
+    FramePath.OfLeadingAxis v -> v
+
+-- Frames ------------------------------------------------------------------------------------------
+
+-- | Requests the job that transfers the frame in the buffer. @t@ is the end of the frame before.
+transferring :: Tick -> ControlJob -> Control -> Control
+transferring t j s = requestJob (max t (filledAt s)) j False s {stage = Resting t True}
+
+-- | Tick at which the frame in the buffer was read.
+filledAt :: Control -> Tick
+filledAt s = case buffer s of
+  Filled _ t -> t
+  Filling {} -> 0
+  Exhausted _ -> 0
+
+-- | Events from the beginning of the frame in the buffer on.
+begin :: Control -> ControllerRun
+begin s = case (buffer s, stage s) of
+  (Filled f since, Resting ended _) ->
+    let path = FramePath.fromFrame (frameRead f)
+        given = Frame.commands (frameRead f)
+        n = number s + 1
+        s' = reading t (afterCommands t given s {number = n})
+     in FrameBegins
+          (FrameStart t n (frameRead f) path (max 0 (since - ended)))
+          (foldr (uncurry (Commanded t)) (moving f path s') given)
+  _ -> proceed s
+  where
+    t = tick (dispatcher s)
+
+-- | Lets the jobs arrive that follow the given commands of tick @t@.
+afterCommands :: Tick -> [(CommandName, Int)] -> Control -> Control
+afterCommands t given s = s {dispatcher = foldl' armed (dispatcher s) (jobs control')}
+  where
+    control' = control (setup s)
+    armed d j = case request j of
+      AfterCommand c time n
+        | isJust (lookup c given) ->
+          Dispatcher.arrive (t + ticksOf control' time) (Due j (Just n)) d
+      _ -> d
+
+-- | Events of the motion of a frame that begins now.
+moving :: TapeFrame -> Maybe FramePath -> Control -> ControllerRun
+moving f path s = case path of
+  Nothing
+    | not (null (lastCommands k)) && all (`elem` Frame.commands (frameRead f)) (lastCommands k) ->
+      Stopped t ProgramEnds
+    | otherwise -> FrameEnds t (proceed (resting t s))
+  Just p
+    | asked <= 0 -> Stopped t (FeedHeld (number s))
+    | asked > largest ->
+      Stopped t (TooFast (number s) (asked / correction k) (largest / correction k))
+    | otherwise -> proceed (onPlan id s {stage = Moving started, feed = first})
+    where
+      started = Feed.plan (machine k) (control k) cyclesAhead p asked
+      largest = Feed.largestFeed (control k) p started
+      first = Feed.initial (control k) asked (feed s)
+  where
+    t = tick (dispatcher s)
+    k = setup s
+    asked = askedFeed k f
+    cyclesAhead = sum [ahead | ControlJob {request = AtDirection _ ahead} <- jobs (control k)]
+
+-- | State at the end of a frame, at tick @t@. If the next frame is read, and its transfer ends
+-- before the next overflow, the integrator runs on.
+resting :: Tick -> Control -> Control
+resting t s
+  | runsOn = s'
+  | otherwise = s' {dispatcher = d {integrator = c {cellU = 0, cellV = 0}}, feed = 0}
+  where
+    s' = s {stage = Resting t False}
+    d = dispatcher s
+    c = integrator d
+    transferTicks = maybe 0 duration (jobWith AtTransfer s)
+    runsOn = case buffer s of
+      Filled _ _ -> cellU c + transferTicks * cellV c < limit c
+      Filling {} -> False
+      Exhausted _ -> False
+
+-- | Events of an interpolation cycle that begins at tick @t@.
+interpolate :: Tick -> Control -> ControllerRun
+interpolate t s = case stage s of
+  Resting _ _ -> proceed s
+  Moving p -> case Interpolator.next (interpolator p) of
+    Finished -> FrameEnds t (proceed (resting t s))
+    Cycle steps rest
+      | Interpolator.isFinished rest -> Stepped t steps (FrameEnds t (proceed (resting t s)))
+      | otherwise -> Stepped t steps (proceed (counted t p {interpolator = rest} s))
+
+-- | State after a cycle: on an arc, the job for its direction is requested after its count of
+-- cycles.
+counted :: Tick -> FeedPlan -> Control -> Control
+counted t p s = case Interpolator.evaluationArc (interpolator p) of
+  Nothing -> s {stage = Moving p}
+  Just _ -> case [(j, n) | j@ControlJob {request = AtDirection n _} <- jobs (control (setup s))] of
+    (j, n) : _
+      | cyclesDone p + 1 >= n -> requestJob t j False s {stage = Moving p {cyclesDone = 0}}
+    _ -> s {stage = Moving p {cyclesDone = cyclesDone p + 1}}

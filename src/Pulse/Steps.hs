@@ -1,0 +1,88 @@
+-- | Pulses that a controller emits at one tick: at most one on each axis.
+--
+-- The axes have the indices 0 to 4, in the order x, y, z, a, b.
+module Pulse.Steps
+  ( Steps,
+    none,
+    forward,
+    backward,
+    together,
+    opposite,
+    count,
+    onAxis,
+    towards,
+    Pulses5 (..),
+    advance,
+    component,
+
+    -- * Interpolation cycles
+    Cycle (..),
+  )
+where
+
+import Data.Bits (popCount, shiftL, shiftR, (.&.), (.|.))
+
+-- | Pulses of one tick. The bit 2k is set for a pulse in the positive direction of the axis k, the
+-- bit 2k + 1 for a pulse in its negative direction.
+newtype Steps = Steps Int
+  deriving newtype (Eq)
+  deriving stock (Show)
+
+-- | No pulse on any axis.
+none :: Steps
+none = Steps 0
+
+-- | One pulse in the positive or in the negative direction of the axis with this index.
+forward, backward :: Int -> Steps
+forward k = Steps (1 `shiftL` (2 * k))
+backward k = Steps (2 `shiftL` (2 * k))
+
+-- | One pulse on the axis with this index in the direction of a number; none if the number is 0.
+towards :: Int -> Int -> Steps
+towards k n = case compare n 0 of
+  LT -> backward k
+  EQ -> none
+  GT -> forward k
+
+-- | Pulses of both arguments, which have no axis in common.
+together :: Steps -> Steps -> Steps
+together (Steps a) (Steps b) = Steps (a .|. b)
+
+-- | Pulses on the same axes in the opposite directions.
+opposite :: Steps -> Steps
+opposite (Steps a) = Steps (((a .&. 0x155) `shiftL` 1) .|. ((a .&. 0x2aa) `shiftR` 1))
+
+-- | Count of pulses.
+count :: Steps -> Int
+count (Steps a) = popCount a
+
+-- | Pulse on the axis with this index: 1, −1 or 0.
+onAxis :: Int -> Steps -> Int
+onAxis k (Steps a) = (bits .&. 1) - (bits `shiftR` 1)
+  where
+    bits = (a `shiftR` (2 * k)) .&. 3
+
+-- | Counts of pulses along x, y, z, a and b: a position, or the increments of a frame.
+data Pulses5 = Pulses5 Int Int Int Int Int
+  deriving stock (Eq, Show)
+
+-- | Position after pulses.
+advance :: Steps -> Pulses5 -> Pulses5
+advance s (Pulses5 x y z a b) =
+  Pulses5 (x + onAxis 0 s) (y + onAxis 1 s) (z + onAxis 2 s) (a + onAxis 3 s) (b + onAxis 4 s)
+
+-- | Component along the axis with this index.
+component :: Int -> Pulses5 -> Int
+component k (Pulses5 x y z a b) = case k of
+  0 -> x
+  1 -> y
+  2 -> z
+  3 -> a
+  _ -> b
+
+-- | Result of one step of an interpolator.
+data Cycle interpolator
+  = -- | pulses, and the interpolator after them
+    Cycle Steps interpolator
+  | -- | The end is reached; no pulse is left.
+    Finished
