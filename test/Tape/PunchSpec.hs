@@ -27,6 +27,7 @@ import Machine.Machine
     LayoutItem (..),
     Machine,
     Presence (..),
+    RotaryForm (..),
     Spare (..),
   )
 import Machine.Machine qualified as Machine
@@ -236,6 +237,9 @@ withCoverage m fs =
     . cover 3 (Machine.arcs m `elem` [Arcs True False, Arcs True True]) "quadrants"
     . cover 10 (not (null [() | Frame {motion = Rapid} <- fs])) "rapid moves"
     . cover 20 (not (all (null . commands) fs)) "commands"
+    . cover 15 (any ((/= 0) . turn) fs) "turns"
+    . cover 5 (any (\f -> turn f /= 0 && increment f == 0) fs) "turns alone"
+    . cover 15 (any turnsReversed (Machine.rotaryAxes m)) "reversed rotary axes"
     . cover 1 (any Frame.braking fs) "braking"
     . cover
       20
@@ -510,6 +514,7 @@ straight x y z s given =
   Frame
     { motion = Linear,
       increment = Pulses3 (Pulses x) (Pulses y) (Pulses z),
+      turn = 0,
       centre = 0,
       feedCode = FeedCode s,
       braking = False,
