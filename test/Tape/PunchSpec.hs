@@ -214,6 +214,22 @@ randomMachineLaws = do
             ==> Punch.write reversedX (mirroredPosition at) (map mirroredFrame fs)
               === Punch.write m at fs
 
+  it
+    "a rotary axis in the opposite sense negates its numbers (catches a sign that is forgotten)"
+    $ forAll (Generate.machine `suchThat` (not . null . Machine.rotaryAxes)) $ \m ->
+      forAll (Generate.frames m) $ \(at, fs) ->
+        let isFirst f = take 1 (Machine.rotaryAxes m) == [f]
+            reversedFirst =
+              m
+                { Machine.rotaryAxes =
+                    [ if isFirst f then f {turnsReversed = not (turnsReversed f)} else f
+                      | f <- Machine.rotaryAxes m
+                    ]
+                }
+            sign a = if or [rotaryAxis f == a | f <- Machine.rotaryAxes m, isFirst f] then -1 else 1
+            turnedBack f = f {turn = turn f * Pulses2 (sign Machine.A) (sign Machine.B)}
+         in Punch.write reversedFirst at (map turnedBack fs) === Punch.write m at fs
+
 -- | Row of a digit, a sign or the decimal point, in the code of a machine.
 numberRow :: Machine -> Gen Word8
 numberRow m = elements [Symbol.holes (Symbol.symbol table c) | c <- "0123456789+-."]
