@@ -113,6 +113,8 @@ def read_n55(rows):
         if "G" not in words:
             frames.append(STILL)
             continue
+        if any(words.get(a, 0) for a in "AB"):
+            sys.exit(f"wrong_tapes.py: frame {len(frames) + 1} turns a rotary axis, which the raster does not know.")
         increment = tuple(words.get(a, 0) for a in "XYZ")
         centre = (words.get("I", 0), words.get("J", 0))
         frames.append(Frame(increment, centre, SENSES[words["G"]], feed if words["G"] else "rapid"))

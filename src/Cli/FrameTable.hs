@@ -1,5 +1,5 @@
--- | Frames as a table or as JSON lines. Increments and arc centres are in pulses, positions in mm,
--- feeds in mm\/min. The column @speed@ has the feed code, by which the tape names a feed.
+-- | Frames as a table or as JSON lines. Increments, turns and arc centres are in pulses, positions
+-- in mm, feeds in mm\/min. The column @speed@ has the feed code, by which the tape names a feed.
 module Cli.FrameTable
   ( frames,
     framesJson,
@@ -18,6 +18,7 @@ import Data.Aeson (object, (.=))
 import Data.Aeson.Encoding (encodingToLazyByteString)
 import Data.Aeson.Encoding qualified as Aeson
 import Data.Aeson.Key qualified as Key
+import Data.Aeson.Types (Pair)
 import Data.ByteString.Lazy qualified as LazyByteString
 import Data.Containers.ListUtils (nubOrd)
 import Data.Text (Text)
@@ -28,7 +29,8 @@ import Frame.Frame (Frame (..), FrameMotion (..), FrameProgram, PlannedFrame (..
 import Frame.Frame qualified as Frame
 import Geometry.Carrier (Sense (..))
 import Geometry.Vec qualified as Vec
-import Machine.Machine (CommandName (..), FeedCode (..), Machine)
+import Machine.Machine (CommandName (..), FeedCode (..), Machine, RotaryAxis, RotaryForm (..))
+import Machine.Machine qualified as Machine
 
 -- | A column: its alignment, its heading, and the function that makes its cell for a row.
 data Column a = Column {align :: Align, title :: Text, cell :: a -> Text}
@@ -49,7 +51,7 @@ frames machine source program = table columns rows
       [ Column ToRight "frame" (Decimal.whole . number),
         Column ToLeft "for" (roleWord . role . planned)
       ]
-        <> map (via (frame . planned)) (motionColumns all')
+        <> map (via (frame . planned)) (motionColumns machine all')
         <> [Column ToRight "speed" (speedWord . frame . planned), Column ToRight "mm/min" feedOf]
         <> map (via (frame . planned)) (brakeColumn all')
         <> [ Column ToRight "to x" (coordinate . Vec.x . endOf),
@@ -73,23 +75,21 @@ frames machine source program = table columns rows
     coordinate = Decimal.fixed 3
 
 -- | The frames of a program as JSON, one object on each line. Every object has all fields, except
--- that only arcs have @centre@; a feed that is not known is @null@.
+-- that only arcs have @centre@, and only frames of machines with rotary axes have @turn@; a feed
+-- that is not known is @null@.
 framesJson :: Machine -> Source -> FrameProgram -> Text
 framesJson machine source program = Text.concat (map row (numbered program))
   where
     row n =
       let f = frame (planned n)
-          Pulses3 (Pulses dx) (Pulses dy) (Pulses dz) = increment f
-          Pulses2 (Pulses i) (Pulses j) = centre f
           FeedCode s = feedCode f
           p = Frame.position machine (to n)
        in jsonLine
             ( [ "frame" .= number n,
                 "role" .= roleWord (role (planned n)),
-                "motion" .= motionWord (motion f),
-                "increment" .= [dx, dy, dz]
+                "motion" .= motionWord (motion f)
               ]
-                <> ["centre" .= [i, j] | isArc f]
+                <> distancesJson machine f
                 <> [ "speed" .= s,
                      "feed"
                        .= ( (\(Feed v) -> v)
@@ -111,6 +111,19 @@ framesJson machine source program = Text.concat (map row (numbered program))
         (LazyByteString.toStrict (encodingToLazyByteString (Aeson.value (object pairs))))
         <> "\n"
 
+-- | The fields for the pulses of a frame: increments, turns, the centre of an arc.
+distancesJson :: Machine -> Frame -> [Pair]
+distancesJson machine f =
+  ["increment" .= [dx, dy, dz]]
+    <> [ "turn" .= object [Key.fromText (rotaryWord a) .= n | (a, Pulses n) <- turns]
+         | not (null turns)
+       ]
+    <> ["centre" .= [i, j] | isArc f]
+  where
+    Pulses3 (Pulses dx) (Pulses dy) (Pulses dz) = increment f
+    Pulses2 (Pulses i) (Pulses j) = centre f
+    turns = [(a, Frame.turnAbout a f) | a <- map rotaryAxis (Machine.rotaryAxes machine)]
+
 -- | The table of frames that were read from a tape. It has no positions and no lines of a program,
 -- because the tape does not contain the start position and the program.
 decoded :: Machine -> [Frame] -> Text
@@ -118,7 +131,7 @@ decoded machine fs = table columns (zip [1 :: Int ..] fs)
   where
     columns =
       [Column ToRight "frame" (Decimal.whole . fst)]
-        <> map (via snd) (motionColumns fs)
+        <> map (via snd) (motionColumns machine fs)
         <> [ Column ToRight "speed" (speedWord . snd),
              Column
                ToRight
@@ -139,15 +152,20 @@ via :: (b -> a) -> Column a -> Column b
 via get c = c {cell = cell c . get}
 
 -- | Columns for the increments in pulses. If some frames are arcs or rapid moves, there is also a
--- column for the kind of motion. If some frames are arcs, there are also columns for their centres.
-motionColumns :: [Frame] -> [Column Frame]
-motionColumns fs =
+-- column for the kind of motion. If some frames turn rotary axes, there is a column for each rotary
+-- axis of the machine. If some frames are arcs, there are also columns for their centres.
+motionColumns :: Machine -> [Frame] -> [Column Frame]
+motionColumns machine fs =
   [ Column ToLeft "motion" (motionWord . motion)
     | any ((`notElem` [NoMotion, Linear]) . motion) fs
   ]
     <> [ Column ToRight "dx" (\f -> let Pulses3 x _ _ = increment f in pulses x),
          Column ToRight "dy" (\f -> let Pulses3 _ y _ = increment f in pulses y),
          Column ToRight "dz" (\f -> let Pulses3 _ _ z = increment f in pulses z)
+       ]
+    <> [ Column ToRight ("d" <> rotaryWord a) (pulses . Frame.turnAbout a)
+         | any ((/= 0) . turn) fs,
+           a <- map rotaryAxis (Machine.rotaryAxes machine)
        ]
     <> concat
       [ [ Column ToRight "i" (ofCentre (\(Pulses2 i _) -> i)),
@@ -170,6 +188,10 @@ commandColumns fs =
   [ Column ToRight name (maybe "" Decimal.whole . lookup o . commands)
     | o@(CommandName name) <- nubOrd (concatMap (map fst . commands) fs)
   ]
+
+-- | Name of a rotary axis.
+rotaryWord :: RotaryAxis -> Text
+rotaryWord axis = Machine.contentName (Machine.About axis)
 
 isArc :: Frame -> Bool
 isArc f = case motion f of

@@ -8,7 +8,7 @@ module Cli.MachineTable
 where
 
 import Base.Decimal qualified as Decimal
-import Base.Quantity (Feed (..), Pulses (..))
+import Base.Quantity (Feed (..), Pulses (..), degrees)
 import Cli.ControllerTable (controllerRows)
 import Cli.Table (Align (..))
 import Cli.Table qualified as Table
@@ -147,15 +147,23 @@ axisRows m =
     ]
     | a <- NonEmpty.toList (axes m)
   ]
+    <> [ [ contentName (About (rotaryAxis a)),
+           Decimal.short 9 (degrees (pulseAngle a)) <> " deg",
+           let Pulses k = turnCapacity m (rotaryAxis a) in Decimal.whole k,
+           if turnsReversed a then against else ""
+         ]
+         | a <- rotaryAxes m
+       ]
     <> [["arcs", arcText, "", ""]]
   where
     remarks a =
       Text.intercalate
         "; "
-        ( ["points against that of the part" | reversed a]
+        ( [against | reversed a]
             <> ["on a lathe the other way" | reversedOnLathe a]
             <> ["not known to be moved" | not (isDriven a)]
         )
+    against = "points against that of the part"
     arcText = case arcs m of
       NoArcs -> "none"
       Arcs {quadrants, fullCircle} ->

@@ -1,5 +1,6 @@
 -- | Model of a controller without time: each frame that moves is one motion of the cutter's centre,
--- on a line or on an arc. Speed, acceleration and the times of pulses are not modelled.
+-- on a line or on an arc. Speed, acceleration and the times of pulses are not modelled, nor are
+-- turns of rotary axes: "Verify.FromTape" refuses tapes with such turns.
 --
 -- The end points of an arc and its centre are whole pulses, so its start radius and its end radius
 -- may differ. Controllers resolve this difference in different manners, but all controllers move

@@ -228,6 +228,7 @@ inOrder machine = sortOn (\(o, _) -> elemIndex o names)
       FrameNumber -> bits w
       Motion _ -> bits w
       Along _ -> bits w
+      About _ -> bits w
       Centre _ -> bits w
       FeedWord -> bits w
     bits w = [o | CommandBit o _ <- Machine.service (form w)]

@@ -15,7 +15,7 @@ module Frame.FeedCode
   )
 where
 
-import Base.PulseVector (Pulses3 (..))
+import Base.PulseVector (Pulses2 (..), Pulses3 (..))
 import Base.Quantity (Feed (..), Mm (..), Pulses (..))
 import Frame.Frame (Frame (..), FrameMotion (..))
 import Frame.Frame qualified as Frame
@@ -58,7 +58,11 @@ pulsesPerMm machine f (Mm l) = case Machine.feedMeasure (Machine.feeds machine) 
     Mm pulse = Machine.planeResolution machine
     leading = case motion f of
       Circular _ -> 0
-      _ -> let Pulses3 x y z = abs (increment f); Pulses n = max x (max y z) in n
+      _ ->
+        let Pulses3 x y z = abs (increment f)
+            Pulses2 a b = abs (turn f)
+            Pulses n = maximum [x, y, z, a, b]
+         in n
 
 -- | Length of a frame in mm: for a straight frame the length in space, for an arc the length in the
 -- plane of x and y.

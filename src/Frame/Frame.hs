@@ -9,6 +9,9 @@ module Frame.Frame
     FrameMotion (..),
     commandFrame,
     isMoving,
+    isStill,
+    turnAbout,
+    turnedAxes,
     PlannedFrame (..),
     Role (..),
     passNumber,
@@ -32,7 +35,16 @@ import Geometry.Segment (Segment (Straight))
 import Geometry.Segment qualified as Segment
 import Geometry.Vec (Point)
 import Geometry.Vec qualified as Vec
-import Machine.Machine (Arcs (..), Axis (..), AxisMeasure (..), CommandName, FeedCode (..), Machine)
+import Machine.Machine
+  ( Arcs (..),
+    Axis (..),
+    AxisMeasure (..),
+    CommandName,
+    FeedCode (..),
+    Machine,
+    RotaryAxis (..),
+    RotaryForm (..),
+  )
 import Machine.Machine qualified as Machine
 
 -- | Largest number of frames of a program. With 15 rows of 2.54 mm for each frame, so many frames
@@ -46,6 +58,9 @@ data Frame = Frame
   { motion :: FrameMotion,
     -- | pulses along x, y and z from the beginning of the frame to its end
     increment :: {-# UNPACK #-} Pulses3,
+    -- | pulses about the rotary axes a and b from the beginning of the frame to its end; 0 in all
+    -- frames of a part program
+    turn :: {-# UNPACK #-} Pulses2,
     -- | pulses along x and y from the beginning of an arc to its centre; 0 for every other motion
     centre :: {-# UNPACK #-} Pulses2,
     -- | feed code; 0 for a frame without motion and for 'Rapid'
@@ -77,6 +92,7 @@ commandFrame given =
   Frame
     { motion = NoMotion,
       increment = 0,
+      turn = 0,
       centre = 0,
       feedCode = FeedCode 0,
       braking = False,
@@ -86,6 +102,22 @@ commandFrame given =
 -- | True for a frame with a motion.
 isMoving :: Frame -> Bool
 isMoving f = motion f /= NoMotion
+
+-- | True for a frame without pulses on any axis, linear or rotary.
+isStill :: Frame -> Bool
+isStill f = increment f == 0 && turn f == 0
+
+-- | Pulses about the rotary axis @a@ from the beginning of a frame to its end.
+turnAbout :: RotaryAxis -> Frame -> Pulses
+turnAbout axis f = case (axis, turn f) of
+  (A, Pulses2 a _) -> a
+  (B, Pulses2 _ b) -> b
+
+-- | Rotary axes that a frame turns.
+turnedAxes :: Frame -> [RotaryAxis]
+turnedAxes f
+  | turn f == 0 = []
+  | otherwise = filter (\axis -> turnAbout axis f /= 0) [minBound .. maxBound]
 
 -- | Frame with its purpose and its origin in the part program.
 data PlannedFrame = PlannedFrame
@@ -152,6 +184,9 @@ segment machine at f = case motion f of
 data Violation
   = -- | an increment that does not fit its field: the axis, and the increment in pulses
     OverCapacity Int Axis Pulses
+  | -- | a turn that does not fit its field, or about an axis that the machine lacks: the axis, and
+    -- the turn in pulses
+    TurnOverCapacity Int RotaryAxis Pulses
   | -- | a centre that is at the beginning of its arc, or that does not fit its field
     BadCentre Int
   | -- | a feed code that the machine does not have, or a feed code other than 0 where the motion
@@ -191,15 +226,22 @@ frameViolations machine n f = case faults of
 data Faults = Faults [Violation] [Violation] [Violation] [Violation]
 
 -- | Increments that do not fit their fields. A field for absolute positions limits the position and
--- not the increment, so nothing is checked there.
+-- not the increment, so nothing is checked there, except that the machine has the rotary axes.
 capacityFaults :: Machine -> Int -> Frame -> [Violation]
 capacityFaults machine n f =
   [ OverCapacity n axis d
-    | Machine.measure (Machine.layout machine) == Increments,
+    | hasIncrements,
       (axis, d) <- [(X, x), (Y, y), (Z, z)],
       abs d > Machine.capacity machine axis
   ]
+    <> [ TurnOverCapacity n axis d
+         | axis <- turnedAxes f,
+           let d = turnAbout axis f,
+           axis `notElem` map rotaryAxis (Machine.rotaryAxes machine)
+             || hasIncrements && abs d > Machine.turnCapacity machine axis
+       ]
   where
+    hasIncrements = Machine.measure (Machine.layout machine) == Increments
     Pulses3 x y z = increment f
 
 -- | Feed codes that the machine does not have, or that the frame's motion does not take.
@@ -213,18 +255,20 @@ feedCodeFaults machine n f = case motion f of
     unknown = [NoSuchFeedCode n (feedCode f) | isNothing (Machine.valueOf machine (feedCode f))]
 
 -- | Motions that the machine does not have, or that contradict the frame's increments or centre.
+-- Only lines and rapid moves turn rotary axes.
 motionFaults :: Machine -> Int -> Frame -> [Violation]
 motionFaults machine n f = case motion f of
-  NoMotion -> [NoSuchMotion n | increment f /= 0 || centre f /= 0]
+  NoMotion -> [NoSuchMotion n | not (isStill f) || centre f /= 0]
   Rapid ->
-    [NoSuchMotion n | increment f == 0 || centre f /= 0 || not (Machine.hasRapidMotion machine)]
-  Linear -> [NoSuchMotion n | increment f == 0 || centre f /= 0]
+    [NoSuchMotion n | isStill f || centre f /= 0 || not (Machine.hasRapidMotion machine)]
+  Linear -> [NoSuchMotion n | isStill f || centre f /= 0]
   Circular sense -> case Machine.arcs machine of
     NoArcs -> [NoSuchMotion n]
     Arcs {Machine.fullCircle, Machine.quadrants} ->
       [ NoSuchMotion n
         | (increment f == 0 && not fullCircle)
             || z /= 0
+            || turn f /= 0
             || (quadrants && not (isInQuadrant sense f))
       ]
         <> [BadCentre n | centre f == 0 || max (abs i) (abs j) > Machine.centreCapacity machine]

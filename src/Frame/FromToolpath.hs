@@ -339,7 +339,15 @@ frameOf machine feedMode pace begin ArcStep {target, turnsAbout} = case turnsAbo
   where
     increment = target - begin
     withoutFeed motion centre =
-      Frame {motion, increment, centre, feedCode = FeedCode 0, braking = False, commands = []}
+      Frame
+        { motion,
+          increment,
+          turn = 0,
+          centre,
+          feedCode = FeedCode 0,
+          braking = False,
+          commands = []
+        }
     withFeed f = case (feedMode, pace) of
       (LowestCode, _) -> f {feedCode = fst (Machine.slowest machine)}
       (BrakingTo v, _) -> f {feedCode = FeedCode.nearestCode machine v f, braking = True}

@@ -1,21 +1,30 @@
 -- | The axes of a machine, and the arcs that its interpolator can make.
+--
+-- A linear axis moves the cutter along x, y or z. A rotary axis turns the part or the head.
 module Machine.Axis
-  ( Axis (..),
+  ( -- * Linear axes
+    Axis (..),
     AxisForm (..),
     Arcs (..),
     among,
     axisName,
+
+    -- * Rotary axes
+    RotaryAxis (..),
+    RotaryForm (..),
+    rotaryAmong,
+    rotaryName,
   )
 where
 
-import Base.Quantity (Mm (..))
+import Base.Quantity (Mm (..), Rad (..))
 import Data.Text (Text)
 
--- | Axis of motion, with its name in ISO 841.
+-- | Linear axis, with its name in ISO 841.
 data Axis = X | Y | Z
   deriving stock (Eq, Ord, Show, Enum, Bounded)
 
--- | Properties of one axis.
+-- | Properties of one linear axis.
 data AxisForm = AxisForm
   { axis :: Axis,
     -- | resolution: length of one pulse
@@ -50,3 +59,29 @@ axisName a = case a of
   X -> "x"
   Y -> "y"
   Z -> "z"
+
+-- | Rotary axis, with its name in ISO 841: 'A' turns about x, 'B' about y.
+data RotaryAxis = A | B
+  deriving stock (Eq, Ord, Show, Enum, Bounded)
+
+-- | Properties of one rotary axis.
+data RotaryForm = RotaryForm
+  { rotaryAxis :: RotaryAxis,
+    -- | resolution: angle of one pulse
+    pulseAngle :: Rad,
+    -- | true if the positive sense of the machine is the negative one of the part
+    turnsReversed :: Bool
+  }
+  deriving stock (Eq, Show)
+
+-- | Finds the properties of the rotary axis @a@ in a list; 'Nothing' if the list lacks the axis.
+rotaryAmong :: RotaryAxis -> [RotaryForm] -> Maybe RotaryForm
+rotaryAmong a forms = case forms of
+  [] -> Nothing
+  f : others -> if rotaryAxis f == a then Just f else rotaryAmong a others
+
+-- | Name of a rotary axis in reports and descriptions: @a@ or @b@.
+rotaryName :: RotaryAxis -> Text
+rotaryName a = case a of
+  A -> "a"
+  B -> "b"

@@ -7,24 +7,26 @@ where
 
 import Base.Decimal qualified as Decimal
 import Base.Quantity (Mm (..))
+import Base.Quantity qualified as Quantity
 import Base.Region (Located (..), Region)
 import Data.List (nub, sort)
 import Data.Map.Strict qualified as Map
 import Data.Maybe (catMaybes, isNothing)
-import Machine.Axis (axisName)
+import Machine.Axis (axisName, rotaryName)
 import Machine.Error (Error (..), FrameFault (..), ServiceFault (..))
 import Machine.Machine
 
--- | Lists the mistakes in the words of a frame. The arguments are the machine, its axes, the
--- regions of the sections on arcs and on feeds, and the items of the frame.
-check :: Machine -> [Located AxisForm] -> Region -> Region -> [(Region, LayoutItem)] -> [Error]
+-- | Lists the mistakes in the words of a frame. The arguments are the machine, the contents that
+-- its linear and rotary axes need, the regions of the sections on arcs and on feeds, and the items
+-- of the frame.
+check :: Machine -> [Located Content] -> Region -> Region -> [(Region, LayoutItem)] -> [Error]
 check machine locatedAxes arcsRegion feedsRegion locatedItems =
   concat
     [ concatMap (wordFaults machine) locatedWords,
       duplicates locatedWords,
-      [ BadFrame r (NoWord (contentName (Along (axis a))))
-        | Located r a <- locatedAxes,
-          isNothing (wordFor machine (Along (axis a)))
+      [ BadFrame r (NoWord (contentName c))
+        | Located r c <- locatedAxes,
+          isNothing (wordFor machine c)
       ],
       [BadFrame feedsRegion (NoWord (contentName FeedWord)) | isNothing (wordFor machine FeedWord)],
       arcFaults machine arcsRegion,
@@ -39,12 +41,13 @@ check machine locatedAxes arcsRegion feedsRegion locatedItems =
 
 -- | Reports the mistakes in one word. The rules: the word of an axis or of a centre is for an axis
 -- that the machine has, and its number has a sign. If this number has decimals, one unit of the
--- last decimal is one pulse. No word of a centre is for z. The codes of a motion word differ from
--- each other, and fit its digits.
+-- last decimal is one pulse, in mm or in degrees. No word of a centre is for z. The codes of a
+-- motion word differ from each other, and fit its digits.
 wordFaults :: Machine -> (Region, Word') -> [Error]
 wordFaults machine (r, w) = case content w of
   Along a -> axisFaults a
-  Centre Z -> [BadFrame r CentreOfZ]
+  About a -> rotaryFaults a
+  Centre Z -> [BadFrame r (CentreAlong (axisName Z))]
   Centre a -> axisFaults a
   Motion m -> motionFaults m
   FrameNumber -> []
@@ -54,12 +57,15 @@ wordFaults machine (r, w) = case content w of
     axisFaults a = case axisForm machine a of
       Nothing -> [BadFrame r (NoSuchAxis (axisName a))]
       Just f ->
-        [ BadFrame r (PulseNotDecimal (decimals (form w)) (resolution f))
-          | decimals (form w) > 0,
-            not (isLastPlace (decimals (form w)) (resolution f))
-        ]
-          <> [BadFrame r (NoSign (contentName (content w))) | sign (form w) == Unsigned]
-    isLastPlace n (Mm p) = abs (p * 10 ^ n - 1) < pulseTolerance
+        let Mm p = resolution f in decimalFaults (PulseNotDecimal places (resolution f)) p
+    rotaryFaults a = case rotaryForm machine a of
+      Nothing -> [BadFrame r (NoSuchAxis (rotaryName a))]
+      Just f ->
+        decimalFaults (AngleNotDecimal places (pulseAngle f)) (Quantity.degrees (pulseAngle f))
+    decimalFaults fault pulse =
+      [BadFrame r fault | places > 0, abs (pulse * 10 ^ places - 1) >= pulseTolerance]
+        <> [BadFrame r (NoSign (contentName (content w))) | sign (form w) == Unsigned]
+    places = decimals (form w)
     motionFaults m =
       let ns = catMaybes [rapid m, Just (straight m), clockwise m, counterClockwise m]
        in [ BadFrame r (BadMotion n)

@@ -3,6 +3,7 @@
 -- | The mistakes of machine descriptions, and their reports.
 module Machine.Error
   ( Error (..),
+    AxisKind (..),
     HoleFault (..),
     DecodingFault (..),
     ServiceFault (..),
@@ -15,7 +16,8 @@ where
 
 import Base.Decimal qualified as Decimal
 import Base.Name qualified as Name
-import Base.Quantity (Mm (..))
+import Base.Quantity (Mm (..), Rad)
+import Base.Quantity qualified as Quantity
 import Base.Region (Region)
 import Data.Text (Text)
 import Data.Text qualified as Text
@@ -49,6 +51,8 @@ data Error
     Missing Region Text Text Text
   | -- | malformed statement: its key, and the forms that it may have
     Malformed Region Text [Text]
+  | -- | pulse with the unit of the other kind of axes: the name of the axis
+    WrongUnit Region AxisKind Text
   | -- | value without a mark of provenance, and the count of further such values in the section
     Unmarked Region Int
   | -- | number out of range: the name of the number, the lowest and the highest value
@@ -69,6 +73,10 @@ data Error
     BadCommand Region CommandFault
   | -- | conflict between the controller and the other sections
     BadController Region ControllerFault
+  deriving stock (Eq, Ord, Show)
+
+-- | Kind of an axis, which decides the unit of its pulse.
+data AxisKind = LinearAxis | TurningAxis
   deriving stock (Eq, Ord, Show)
 
 -- | Mistake in the holes of a row.
@@ -150,10 +158,12 @@ data FrameFault
   | -- | pulse that is not one unit of the last decimal of its axis's word: the count of decimals,
     -- and the pulse
     PulseNotDecimal Int Mm
+  | -- | the same for a rotary axis, with the angle of its pulse
+    AngleNotDecimal Int Rad
   | -- | code of a motion that has too many digits for its word, or is used twice
     BadMotion Int
-  | -- | centre word along z
-    CentreOfZ
+  | -- | centre word along the axis with this name, which is z or a rotary axis
+    CentreAlong Text
   | -- | modulus for which some sums have no check digit
     NoCheckDigit Int
   | -- | word of an axis without a sign
@@ -238,6 +248,7 @@ toReport err = case err of
     (at region "E1005" (quote key <> " is not written so"))
       { hints = ["Write: " <> Text.intercalate ", or: " forms]
       }
+  WrongUnit region kind axis -> unitReport region kind axis
   Unmarked region more ->
     ( at
         region
@@ -288,6 +299,22 @@ toReport err = case err of
       ['\'', c, '\''] -> [c]
       '\'' : '\\' : number | [(n, "'")] <- reads number -> [toEnum n]
       _ -> s
+
+-- | Report about a pulse with a wrong unit.
+unitReport :: Region -> AxisKind -> Text -> Report
+unitReport region kind axis = case kind of
+  LinearAxis ->
+    (wrong ("the pulse of " <> axis <> " is a length, in mm"))
+      { message = ["The axes x, y and z move along a line; only a and b turn."],
+        hints = ["Write, for example: pulse 0.01 mm"]
+      }
+  TurningAxis ->
+    (wrong ("the pulse of " <> axis <> " is an angle, in deg"))
+      { message = ["The axes a and b turn; only x, y and z move along a line."],
+        hints = ["Write, for example: pulse 0.001 deg"]
+      }
+  where
+    wrong = at region "E1005"
 
 holeReport :: Region -> HoleFault -> Report
 holeReport region fault = case fault of
@@ -461,26 +488,16 @@ frameReport region fault = case fault of
   NoWord what ->
     (wrong ("the frame has no word for this: " <> what)) {hints = ["Add it to the frame: word …"]}
   Unsuited what why -> (wrong ("this does not suit the word: " <> what)) {message = [why]}
-  PulseNotDecimal decimals pulse ->
-    (wrong ("the last decimal is not a pulse of " <> millimetres pulse))
-      { message =
-          [ "A number with a point is in mm, so its last decimal has to be the pulse of its \
-            \axis."
-          ],
-        hints =
-          [ "With "
-              <> Decimal.whole decimals
-              <> " decimals the pulse is "
-              <> Decimal.exact (10 ^^ negate decimals)
-              <> " mm."
-          ]
-      }
+  PulseNotDecimal decimals (Mm pulse) -> notDecimal decimals (Decimal.exact pulse) "mm"
+  AngleNotDecimal decimals pulse ->
+    notDecimal decimals (Decimal.short 9 (Quantity.degrees pulse)) "deg"
   BadMotion n ->
     (wrong ("a motion cannot be " <> Decimal.whole n))
       { hints =
           ["Each kind of motion has a number of its own that fits the digits of the word."]
       }
-  CentreOfZ -> (wrong "arcs have no centre along z") {hints = ["Arcs lie in the plane of x and y."]}
+  CentreAlong axis ->
+    (wrong ("arcs have no centre along " <> axis)) {hints = ["Arcs lie in the plane of x and y."]}
   NoCheckDigit modulus ->
     (wrong ("no digit makes every sum a multiple of " <> Decimal.whole modulus))
       { message = ["The weights of the digits 0 to 9 have to leave every remainder."],
@@ -498,7 +515,22 @@ frameReport region fault = case fault of
       }
   where
     wrong = at region "E1012"
-    millimetres (Mm p) = Decimal.exact p <> " mm"
+    notDecimal decimals pulse unit =
+      (wrong ("the last decimal is not a pulse of " <> pulse <> " " <> unit))
+        { message =
+            [ "A number with a point is in " <> unit
+                <> ", so its last decimal has to be the pulse of its axis."
+            ],
+          hints =
+            [ "With "
+                <> Decimal.whole decimals
+                <> " decimals the pulse is "
+                <> Decimal.exact (10 ^^ negate decimals)
+                <> " "
+                <> unit
+                <> "."
+            ]
+        }
 
 tableReport :: Region -> TableFault -> Report
 tableReport region fault = case fault of

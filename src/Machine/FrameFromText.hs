@@ -26,6 +26,7 @@ import Machine.Machine
     MotionCodes (..),
     NumberForm (..),
     Presence (..),
+    RotaryAxis (..),
     Service (..),
     Sign (..),
     Word' (..),
@@ -105,25 +106,30 @@ word hasService e = do
     motionKeys = ["rapid", "straight", "clockwise", "counterclockwise"]
     forms = ["word \"X\" along x { … }", "word along x { … }"]
     heading args = case args of
-      Located _ (Quoted a) : rest -> (\c -> pure (a, c)) <$> contentFrom rest
-      _ -> (\c -> pure ("", c)) <$> contentFrom args
+      Located _ (Quoted a) : rest -> fmap (a,) <$> contentFrom rest
+      _ -> fmap ("",) <$> contentFrom args
 
 -- | Reads the content of a word from the arguments of its line; 'Nothing' if they name no content.
--- The result is @Just Nothing@ for a word that contains the kind of motion. The codes of the kinds
--- are in the block of the word, so they are not yet known.
-contentFrom :: [Argument] -> Maybe (Maybe Content)
-contentFrom args = case map value args of
-  [Word "frame-number"] -> Just (Just FrameNumber)
-  [Word "motion"] -> Just Nothing
-  [Word "feed"] -> Just (Just FeedWord)
-  [Word "along", Word a] -> Just . Along <$> axisNamed a
-  [Word "centre", Word a] -> Just . Centre <$> axisNamed a
-  [Word "command", Word n] -> Just (Just (Command (CommandName n)))
-  [Word "command", Quoted n] -> Just (Just (Command (CommandName n)))
+-- The output is 'Nothing' for a word that contains the kind of motion. The codes of the kinds are
+-- in the block of the word, so they are not yet known.
+contentFrom :: [Argument] -> Maybe (Result w Error (Maybe Content))
+contentFrom args = case args of
+  [Located _ (Word "frame-number")] -> known FrameNumber
+  [Located _ (Word "motion")] -> Just (pure Nothing)
+  [Located _ (Word "feed")] -> known FeedWord
+  [Located _ (Word "along"), Located _ (Word w)]
+    | Just a <- linearAxis w -> known (Along a)
+    | Just a <- turningAxis w -> known (About a)
+  [Located _ (Word "centre"), Located r (Word w)]
+    | Just a <- linearAxis w -> known (Centre a)
+    | Just _ <- turningAxis w -> Just (Result.failed (BadFrame r (CentreAlong w)))
+  [Located _ (Word "command"), Located _ (Word n)] -> known (Command (CommandName n))
+  [Located _ (Word "command"), Located _ (Quoted n)] -> known (Command (CommandName n))
   _ -> Nothing
-
-axisNamed :: Text -> Maybe Axis
-axisNamed a = lookup a [("x", X), ("y", Y), ("z", Z)]
+  where
+    known = Just . pure . Just
+    linearAxis w = lookup w [("x", X), ("y", Y), ("z", Z)]
+    turningAxis w = lookup w [("a", A), ("b", B)]
 
 -- | Reads the codes of the kinds of motion from the block of a word.
 motionCodes :: DescriptionSection -> Result w Error MotionCodes
@@ -253,6 +259,7 @@ data ContentKind = AxisOrCentre | CommandNumber | OtherNumber
 kindOf :: Content -> ContentKind
 kindOf c = case c of
   Along _ -> AxisOrCentre
+  About _ -> AxisOrCentre
   Centre _ -> AxisOrCentre
   Command _ -> CommandNumber
   FrameNumber -> OtherNumber

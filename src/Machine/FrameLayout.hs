@@ -21,7 +21,7 @@ where
 
 import Data.List.NonEmpty (NonEmpty (..))
 import Data.Text (Text)
-import Machine.Axis (Axis, axisName)
+import Machine.Axis (Axis, RotaryAxis, axisName, rotaryName)
 
 -- | Items of a frame in their order on the tape.
 data Layout = Layout
@@ -67,6 +67,8 @@ data Content
     Motion MotionCodes
   | -- | increment or position of an axis, in pulses
     Along Axis
+  | -- | increment or position of a rotary axis, in pulses
+    About RotaryAxis
   | -- | centre of an arc along this axis, relative to the start of the arc, in pulses
     Centre Axis
   | -- | code of the feed
@@ -140,7 +142,8 @@ data Presence
     InMotion
   | -- | in frames that need the content: for an axis, frames that move the axis; for a centre,
     -- arcs; for a command, frames that give the command. With absolute positions, the first frame
-    -- that moves needs x and y, and also z if any frame of the tape moves z.
+    -- that moves needs x and y, and also z if any frame of the tape moves z. The word of a rotary
+    -- axis is only in frames that turn the axis.
     WhenNeeded
   | -- | for the feed: in frames with a line or an arc, if the feed code differs from that of the
     -- last such frame before
@@ -158,6 +161,7 @@ contentName c = case c of
   FrameNumber -> "frame number"
   Motion _ -> "kind of motion"
   Along a -> axisName a
+  About a -> rotaryName a
   Centre a -> "centre " <> axisName a
   FeedWord -> "feed"
   Command (CommandName n) -> "command " <> n

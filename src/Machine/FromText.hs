@@ -12,6 +12,7 @@ module Machine.FromText
 where
 
 import Base.Quantity (Mm (..))
+import Base.Quantity qualified as Quantity
 import Base.Region (Located (..), Region (..))
 import Base.Result (Result (..))
 import Base.Result qualified as Result
@@ -21,11 +22,12 @@ import Data.List.NonEmpty qualified as NonEmpty
 import Data.Maybe (isJust, maybeToList)
 import Data.Text (Text)
 import Data.Text qualified as Text
+import Machine.Axis (axisName, rotaryName)
 import Machine.CodeFromText qualified as CodeFromText
 import Machine.CommandFromText qualified as CommandFromText
 import Machine.Completeness qualified as Completeness
 import Machine.ControllerFromText qualified as ControllerFromText
-import Machine.Error (Error (..), FrameFault (BrakedFrequencies), ServiceFault (..))
+import Machine.Error (AxisKind (..), Error (..), FrameFault (BrakedFrequencies), ServiceFault (..))
 import Machine.FeedFromText qualified as FeedFromText
 import Machine.FrameFromText (LocatedLayout (locatedItems, separatorRegion), quotedText)
 import Machine.FrameFromText qualified as FrameFromText
@@ -77,7 +79,7 @@ machineFrom text ss = marked *> machine
 data Sections = Sections
   { locatedTape :: Located Medium,
     locatedCode :: Located TapeCode,
-    locatedAxes :: NonEmpty (Located AxisForm),
+    locatedAxes :: LocatedAxes,
     locatedArcs :: Located Arcs,
     locatedLayout :: LocatedLayout,
     locatedFeeds :: Located Feeds,
@@ -127,7 +129,7 @@ crossChecked s = Result.failing faults s
       concat
         [ Completeness.check
             machine
-            (NonEmpty.toList (locatedAxes s))
+            (axisContents (locatedAxes s))
             (region (locatedArcs s))
             (region (locatedFeeds s))
             (NonEmpty.toList (locatedItems frame)),
@@ -167,7 +169,8 @@ machineOf s =
       title = "",
       medium = value (locatedTape s),
       code = value (locatedCode s),
-      axes = fmap value (locatedAxes s),
+      axes = fmap value (linear (locatedAxes s)),
+      rotaryAxes = map value (rotary (locatedAxes s)),
       arcs = value (locatedArcs s),
       layout = FrameFromText.layout (locatedLayout s),
       feeds = value (locatedFeeds s),
@@ -241,42 +244,89 @@ countFrom word low high = withArguments [word <> " " <> Text.pack (show example)
       [a] -> wholeIn ("‘" <> word <> "’") low high a
       _ -> Nothing
 
--- | Reads all axes. Reports a missing axis if there is none, and every repetition of an axis.
-axesFrom :: DescriptionSection -> Result w Error (NonEmpty (Located AxisForm))
+-- | All axes of a machine, with their regions.
+data LocatedAxes = LocatedAxes
+  { linear :: NonEmpty (Located AxisForm),
+    rotary :: [Located RotaryForm]
+  }
+
+-- | Contents of the words that the axes need, with the regions of the axes.
+axisContents :: LocatedAxes -> [Located Content]
+axisContents found =
+  [Located r (Along (axis f)) | Located r f <- NonEmpty.toList (linear found)]
+    <> [Located r (About (rotaryAxis f)) | Located r f <- rotary found]
+
+-- | Reads all axes. Reports a missing axis if there is none of x, y and z, and every repetition of
+-- an axis.
+axesFrom :: DescriptionSection -> Result w Error LocatedAxes
 axesFrom whole = do
   found <- allWith "axis" axisFrom whole
-  case NonEmpty.nonEmpty found of
+  case NonEmpty.nonEmpty [Located r f | Located r (Left f) <- found] of
     Nothing -> Result.failed missing
-    Just some -> Result.failing (repetitions found) some
+    Just linear ->
+      Result.failing
+        (repetitions found)
+        LocatedAxes {linear, rotary = [Located r f | Located r (Right f) <- found]}
   where
     missing =
       Missing (sectionRegion whole) (sectionName whole) "axis" "axis x { pulse 0.01 mm }"
     repetitions found =
       [ Twice r "an axis" first
         | (k, Located r a) <- zip [0 ..] found,
-          Located first _ <- take 1 [b | b <- take k found, axis (value b) == axis a]
+          Located first _ <- take 1 [b | b <- take k found, letter (value b) == letter a]
       ]
+    letter = either (axisName . axis) (rotaryName . rotaryAxis)
 
--- | Reads the section of one axis.
-axisFrom :: Statement -> Result w Error (Located AxisForm)
+-- | Reads the section of one axis: x, y and z move along a line, a and b turn.
+axisFrom :: Statement -> Result w Error (Located (Either AxisForm RotaryForm))
 axisFrom s = do
-  (a, section) <- withBlock ["axis x { pulse 0.01 mm }"] "the axis" axisLetter s
-  form' <-
-    AxisForm a
-      <$> required "pulse" "pulse 0.01 mm" pulseFrom section
-      <*> optional "direction" False (choice [("forwards", False), ("reversed", True)]) section
-      <*> optional "lathe" False (choice [("same", False), ("reversed", True)]) section
-      <*> optional "moves" True (choice [("yes", True), ("unsure", False)]) section
-      <* allowKeys ["pulse", "direction", "lathe", "moves"] [] section
-  pure (Located (extent s) form')
+  (a, section) <-
+    withBlock ["axis x { pulse 0.01 mm }", "axis a { pulse 0.001 deg }"] "the axis" axisLetter s
+  Located (extent s) <$> case a of
+    Left l -> Left <$> linearFrom l section
+    Right t -> Right <$> rotaryFrom t section {sectionName = "a rotary axis"}
   where
     axisLetter args = case map value args of
-      [Word w] -> pure <$> lookup w [("x", X), ("y", Y), ("z", Z)]
+      [Word w] ->
+        pure
+          <$> lookup
+            w
+            [("x", Left X), ("y", Left Y), ("z", Left Z), ("a", Right A), ("b", Right B)]
       _ -> Nothing
+
+-- | Reads the properties of the linear axis @a@.
+linearFrom :: Axis -> DescriptionSection -> Result w Error AxisForm
+linearFrom a section =
+  AxisForm a
+    <$> required "pulse" "pulse 0.01 mm" pulseFrom section
+    <*> optional "direction" False directionFrom section
+    <*> optional "lathe" False (choice [("same", False), ("reversed", True)]) section
+    <*> optional "moves" True (choice [("yes", True), ("unsure", False)]) section
+    <* allowKeys ["pulse", "direction", "lathe", "moves"] [] section
+  where
     pulseFrom = withArguments ["pulse 0.01 mm"] onePulse
     onePulse args = case args of
-      [a, b] -> fmap Mm <$> quantityIn "the pulse" "mm" 1000 a b
+      [_, Located r (Word "deg")] -> Just (Result.failed (WrongUnit r LinearAxis (axisName a)))
+      [n, unit] -> fmap Mm <$> quantityIn "the pulse" "mm" 1000 n unit
       _ -> Nothing
+
+-- | Reads the properties of the rotary axis @a@.
+rotaryFrom :: RotaryAxis -> DescriptionSection -> Result w Error RotaryForm
+rotaryFrom a section =
+  RotaryForm a
+    <$> required "pulse" "pulse 0.001 deg" pulseFrom section
+    <*> optional "direction" False directionFrom section
+    <* allowKeys ["pulse", "direction"] [] section
+  where
+    pulseFrom = withArguments ["pulse 0.001 deg"] onePulse
+    onePulse args = case args of
+      [_, Located r (Word "mm")] -> Just (Result.failed (WrongUnit r TurningAxis (rotaryName a)))
+      [n, unit] -> fmap Quantity.radians <$> quantityIn "the pulse" "deg" 360 n unit
+      _ -> Nothing
+
+-- | Reads the direction of an axis: true if it is reversed.
+directionFrom :: Statement -> Result w Error Bool
+directionFrom = choice [("forwards", False), ("reversed", True)]
 
 -- | Reads the arcs that a frame can describe.
 arcsFrom :: Statement -> Result w Error Arcs

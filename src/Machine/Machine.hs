@@ -20,7 +20,10 @@ module Machine.Machine
     Axis (..),
     AxisForm (..),
     Arcs (..),
+    RotaryAxis (..),
+    RotaryForm (..),
     axisForm,
+    rotaryForm,
     planeResolution,
     resolutionOf,
     drivenAxes,
@@ -42,6 +45,7 @@ module Machine.Machine
     wordsOf,
     wordFor,
     capacity,
+    turnCapacity,
     centreCapacity,
     commandCapacity,
     commandDecimals,
@@ -92,7 +96,15 @@ import Data.List.NonEmpty (NonEmpty (..))
 import Data.List.NonEmpty qualified as NonEmpty
 import Data.Map.Strict qualified as Map
 import Data.Text (Text)
-import Machine.Axis (Arcs (..), Axis (..), AxisForm (..), among)
+import Machine.Axis
+  ( Arcs (..),
+    Axis (..),
+    AxisForm (..),
+    RotaryAxis (..),
+    RotaryForm (..),
+    among,
+    rotaryAmong,
+  )
 import Machine.Commands
   ( CommandValue (..),
     CommandWord (..),
@@ -140,7 +152,10 @@ data Machine = Machine
     title :: Text,
     medium :: Medium,
     code :: TapeCode,
+    -- | the linear axes
     axes :: NonEmpty AxisForm,
+    -- | the rotary axes; empty for nearly all machines
+    rotaryAxes :: [RotaryForm],
     arcs :: Arcs,
     layout :: Layout,
     feeds :: Feeds,
@@ -180,6 +195,10 @@ data Provenance
 -- | Properties of the axis @a@; 'Nothing' if the machine lacks the axis.
 axisForm :: Machine -> Axis -> Maybe AxisForm
 axisForm machine a = among a (NonEmpty.toList (axes machine))
+
+-- | Properties of the rotary axis @a@; 'Nothing' if the machine lacks the axis.
+rotaryForm :: Machine -> RotaryAxis -> Maybe RotaryForm
+rotaryForm machine a = rotaryAmong a (rotaryAxes machine)
 
 -- | Resolution in the plane of x and y: the larger of the two resolutions, in mm for one pulse. For
 -- a machine with neither of these axes it is the resolution of z.
@@ -235,6 +254,11 @@ firstWord wanted ws = case ws of
 -- | Largest number of pulses that the word of the axis @a@ can hold; 0 if frames lack the word.
 capacity :: Machine -> Axis -> Pulses
 capacity machine a = maybe 0 (Pulses . capacityOf . form) (wordFor machine (Along a))
+
+-- | Largest number of pulses that the word of the rotary axis @a@ can hold; 0 if frames lack the
+-- word.
+turnCapacity :: Machine -> RotaryAxis -> Pulses
+turnCapacity machine a = maybe 0 (Pulses . capacityOf . form) (wordFor machine (About a))
 
 -- | Largest number of pulses that each of the words for an arc's centre can hold; 0 if frames have
 -- no such words.

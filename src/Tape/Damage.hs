@@ -201,6 +201,7 @@ reasonText why = case why of
 ruleText :: Violation -> Text
 ruleText broken = case broken of
   OverCapacity {} -> "the move is longer than a frame can say"
+  TurnOverCapacity {} -> "the turn is longer than a frame can say"
   BadCentre _ -> "the centre of the arc is none, or too far"
   NoSuchFeedCode _ (FeedCode s) ->
     "the machine has no speed " <> Decimal.whole s <> " for this motion"

@@ -9,10 +9,10 @@
 -- In a layout with a check digit each symbol has a weight. The sum of the weights in a frame, the
 -- check sum, has to be a multiple of a number given by the layout, the modulus.
 --
--- 'readFrame' first tries "Tape.FrameReader.Fast", which reads only frames with neither an arc nor
--- a command. 'wordByWord' reads any frame: it reads the words and makes a frame of them. Then it
--- writes this frame again: a row that differs from the tape is a fault. Indices of rows count
--- from 0.
+-- 'readFrame' first tries "Tape.FrameReader.Fast", which reads only frames that have neither an arc
+-- nor a command and turn no rotary axis. 'wordByWord' reads any frame: it reads the words and makes
+-- a frame of them. Then it writes this frame again: a row that differs from the tape is a fault.
+-- Indices of rows count from 0.
 module Tape.FrameReader
   ( RowFault (..),
     readFrame,
@@ -40,6 +40,7 @@ import Machine.Machine
     MotionCodes (..),
     NumberForm (..),
     Presence (..),
+    RotaryAxis (..),
     Word' (..),
   )
 import Machine.Machine qualified as Machine
@@ -95,6 +96,9 @@ isFeed c = case c of FeedWord -> True; _ -> False
 isAlong, isCentre :: Axis -> Content -> Bool
 isAlong a c = case c of Along b -> a == b; _ -> False
 isCentre a c = case c of Centre b -> a == b; _ -> False
+
+isAbout :: RotaryAxis -> Content -> Bool
+isAbout a c = case c of About b -> a == b; _ -> False
 
 -- | Reads the frame that begins at row @begin@; @state@ is the modal state before the frame. Gives
 -- the frame and the index of the row after it, or the first fault.
@@ -270,13 +274,15 @@ frameOf :: PreparedLayout -> State -> Int -> Reading -> Either RowFault Frame
 frameOf layout state begin reading = do
   mapM_ (checkFrameNumber state) (wordWith isFrameNumber reading)
   let increment = Pulses3 (distance X) (distance Y) (distance Z)
+      turn = Pulses2 (rotationAbout A) (rotationAbout B)
       Pulses3 i j _ = ModalState.signs axes * Pulses3 (centreNumber X) (centreNumber Y) 0
-  m <- motionOf layout begin reading increment
+  m <- motionOf layout begin reading (increment == 0 && turn == 0)
   code <- feedCodeOf layout state begin reading m
   pure
     Frame
       { motion = m,
         increment,
+        turn,
         centre = Pulses2 i j,
         feedCode = FeedCode code,
         braking = isBraking reading,
@@ -292,6 +298,13 @@ frameOf layout state begin reading = do
          in case ModalState.measure axes of
               Increments -> n
               Positions -> n - ModalState.along a (position state)
+    rotationAbout a = case wordWith (isAbout a) reading of
+      Nothing -> 0
+      Just s ->
+        let n = ModalState.about a (ModalState.turnSigns axes) * Pulses (number s)
+         in case ModalState.measure axes of
+              Increments -> n
+              Positions -> n - ModalState.about a (rotation state)
 
 -- | Commands of a frame in the order of the layout, each with its number. The number of a command
 -- that is written in bits is the sum of their values. A command with the number 0 is left out if 0
@@ -317,16 +330,17 @@ checkFrameNumber state s
   where
     n = ordinal state `mod` 10 ^ digits (form (word s))
 
-motionOf :: PreparedLayout -> Int -> Reading -> Pulses3 -> Either RowFault FrameMotion
-motionOf layout begin reading increment = case Layout.motionWord layout of
-  Nothing -> Right (if increment == 0 then NoMotion else Linear)
+-- | Motion of a frame. @isStill@ is true if its words move no axis.
+motionOf :: PreparedLayout -> Int -> Reading -> Bool -> Either RowFault FrameMotion
+motionOf layout begin reading isStill = case Layout.motionWord layout of
+  Nothing -> Right (if isStill then NoMotion else Linear)
   Just (w, codes) -> case wordWith isMotion reading of
     Nothing
-      | increment == 0 -> Right NoMotion
+      | isStill -> Right NoMotion
       | otherwise -> Left (RowFault begin Nothing IncrementWithoutMotion)
     Just s
       | number s == straight codes ->
-        if presence w == Always && increment == 0 then Right NoMotion else moving s Linear
+        if presence w == Always && isStill then Right NoMotion else moving s Linear
       | Just (number s) == rapid codes -> moving s Rapid
       | Just (number s) == clockwise codes ->
         Right (Circular (onMachine Clockwise CounterClockwise))
@@ -335,7 +349,7 @@ motionOf layout begin reading increment = case Layout.motionWord layout of
       | otherwise -> wrong s (UnknownMotion (number s))
     where
       wrong s why = Left (RowFault (at s) (Just (content w)) why)
-      moving s m = if increment == 0 then wrong s MotionWithoutIncrement else Right m
+      moving s m = if isStill then wrong s MotionWithoutIncrement else Right m
   where
     onMachine sense opposite =
       if ModalState.isMirrored (Layout.axes layout) then opposite else sense
@@ -369,6 +383,7 @@ checkRules layout begin reading f
   where
     blamed rule = case rule of
       Frame.OverCapacity _ a _ -> isAlong a
+      Frame.TurnOverCapacity _ a _ -> isAbout a
       Frame.BadCentre _ -> isCentre X
       Frame.NoSuchFeedCode _ _ -> isFeed
       Frame.NoSuchMotion _ -> isMotion

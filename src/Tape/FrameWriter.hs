@@ -23,6 +23,7 @@ import Data.Functor.Identity (runIdentity)
 import Data.Maybe (fromMaybe)
 import Data.Word (Word8)
 import Frame.Frame (Frame (..))
+import Frame.Frame qualified as Frame
 import Machine.Machine
   ( Content (..),
     NumberForm (..),
@@ -239,13 +240,15 @@ checkDigit layout modulus total =
     weightOf = Symbol.digitWeight (symbols layout)
 
 -- | True if @c@ is the content of the leading axis's word. If several axes have the most pulses,
--- the first in the layout leads. True also if @c@ is no 'Along', say for the centre of an arc.
+-- the first in the layout leads. True also if @c@ is not of an axis, say for the centre of an arc.
 isLeading :: PreparedLayout -> Frame -> Content -> Bool
-isLeading layout frame c = case c of
-  Along a -> take 1 [b | b <- axisOrder layout, pulses b == most] == [a]
-  _ -> True
+isLeading layout frame c =
+  c `notElem` axisOrder layout || take 1 [b | b <- axisOrder layout, pulses b == most] == [c]
   where
-    pulses b = abs (ModalState.along b (increment frame))
+    pulses b = case b of
+      Along a -> abs (ModalState.along a (increment frame))
+      About a -> abs (Frame.turnAbout a frame)
+      _ -> 0
     most = maximum (0 : map pulses (axisOrder layout))
 
 -- | True if the service track gets a hole in the row of a digit of the number @n@; @s@ is the

@@ -3,8 +3,8 @@
 -- | Layout of a machine's frames, prepared for writing and reading.
 --
 -- "Tape.FrameWriter" and "Tape.FrameReader" follow the same steps of this layout. A simple frame
--- has neither an arc nor a command. Most frames are simple, so the layout has a shorter list of
--- steps and words for them.
+-- has neither an arc nor a command, and turns no rotary axis. Most frames are simple, so the layout
+-- has a shorter list of steps and words for them.
 --
 -- A word is an address, which may be empty, and a number. A hole in the service track gives the
 -- digit in its row an extra meaning ('Service'). In a layout with a check digit each symbol has a
@@ -50,8 +50,7 @@ import Data.Text qualified as Text
 import Data.Word (Word8)
 import Frame.Frame (Frame)
 import Machine.Machine
-  ( Axis (..),
-    CommandName (..),
+  ( CommandName (..),
     Content (..),
     LayoutItem (..),
     Machine,
@@ -85,11 +84,11 @@ data PreparedLayout = PreparedLayout
     point :: Symbol,
     -- | all words in their order on the tape
     frameWords :: [Word'],
-    -- | the words that can occur in a simple frame. They include words of arcs and commands that
-    -- every frame, or every frame that moves, contains; see 'ModalState.occursInSimple'.
+    -- | the words that can occur in a simple frame. They include words of arcs, commands and rotary
+    -- axes that every frame, or every frame that moves, contains; see 'ModalState.occursInSimple'.
     simpleWords :: [Word'],
-    -- | axes in the order of their words
-    axisOrder :: [Axis],
+    -- | contents of the words of axes, linear and rotary, in the order of the words
+    axisOrder :: [Content],
     -- | commands in the order of their words and bits. The flag is true if the number 0 gives the
     -- command, and false if 0 means that the frame lacks the command.
     commandWords :: [(CommandName, Bool)],
@@ -146,7 +145,7 @@ fromMachine machine =
       point = Symbol.symbol symbols '.',
       frameWords,
       simpleWords = filter ModalState.occursInSimple frameWords,
-      axisOrder = [a | w <- frameWords, Along a <- [content w]],
+      axisOrder = filter isOfAxis (map content frameWords),
       commandWords = nub (concatMap commandsOf frameWords),
       motionWord = listToMaybe [(w, codes) | w <- frameWords, Motion codes <- [content w]],
       isFeedModal = or [presence w == WhenChanged | w <- frameWords, content w == FeedWord],
@@ -164,6 +163,17 @@ fromMachine machine =
     -- can occur in a simple frame. A reader that follows 'simpleSteps' would not notice any other
     -- word at the end of a frame, and would take the frame for complete.
     endsSurely = all isSimpleStep (takeWhile (not . isAlwaysWritten) (reverse steps))
+
+-- | True for the content of an axis's word.
+isOfAxis :: Content -> Bool
+isOfAxis c = case c of
+  Along _ -> True
+  About _ -> True
+  FrameNumber -> False
+  Motion _ -> False
+  Centre _ -> False
+  FeedWord -> False
+  Command _ -> False
 
 symbolsOf :: Symbols -> Text -> [Symbol]
 symbolsOf symbols = map (Symbol.symbol symbols) . Text.unpack

@@ -1,8 +1,8 @@
 -- | Modal state: the values that stay in force from frame to frame. From the state and a frame,
 -- 'number' computes the number of each word of the frame, for the writer and for the readers.
 --
--- A frame is a block of ISO 6983. A /simple frame/ has neither an arc nor a command. A pulse is the
--- smallest step of an axis.
+-- A frame is a block of ISO 6983. A /simple frame/ has neither an arc nor a command, and turns no
+-- rotary axis. A pulse is the smallest step of an axis.
 module Tape.ModalState
   ( State (..),
     initial,
@@ -10,6 +10,7 @@ module Tape.ModalState
     Axes (..),
     axes,
     along,
+    about,
     number,
     isSimple,
     occursInSimple,
@@ -36,6 +37,8 @@ import Machine.Machine
     MotionCodes (..),
     NumberForm (..),
     Presence (..),
+    RotaryAxis (..),
+    RotaryForm (..),
     Word' (..),
   )
 import Machine.Machine qualified as Machine
@@ -46,6 +49,8 @@ data State = State
     ordinal :: Int,
     -- | position of the cutter in pulses, along the axes of the part
     position :: Pulses3,
+    -- | position of the rotary axes a and b in pulses; 0 before the first frame
+    rotation :: Pulses2,
     -- | axes whose position the tape still has to give: the next frame that moves gives it, even if
     -- it is unchanged. Only tapes with absolute positions use this field.
     unwritten :: [Axis],
@@ -59,10 +64,16 @@ data State = State
 --
 -- On a tape with absolute positions the first frame that moves gives x and y, even if they are
 -- unchanged. It also gives z if some frame changes the height. If no frame does, the operator sets
--- the height by hand.
+-- the height by hand. A position of a rotary axis is written only in frames that turn the axis.
 initial :: Bool -> Pulses3 -> State
 initial changesZ start =
-  State {ordinal = 1, position = start, unwritten = [X, Y] <> [Z | changesZ], feed = Nothing}
+  State
+    { ordinal = 1,
+      position = start,
+      rotation = 0,
+      unwritten = [X, Y] <> [Z | changesZ],
+      feed = Nothing
+    }
 
 -- | True if one of the frames moves along z.
 changesHeight :: [Frame] -> Bool
@@ -75,6 +86,8 @@ data Axes = Axes
     -- | for each axis, the factor from the part's axis to the machine's: 1 if both have the same
     -- direction, −1 if the machine's axis is reversed
     signs :: Pulses3,
+    -- | the same factors for the rotary axes a and b
+    turnSigns :: Pulses2,
     -- | true if clockwise arcs of the part are counter-clockwise on the machine
     isMirrored :: Bool
   }
@@ -85,11 +98,13 @@ axes machine =
   Axes
     { measure = Machine.measure (Machine.layout machine),
       signs = Pulses3 (sign X) (sign Y) (sign Z),
+      turnSigns = Pulses2 (turnSign A) (turnSign B),
       isMirrored = Machine.isMirrored machine
     }
   where
     sign a =
       if or [reversed f | f <- NonEmpty.toList (Machine.axes machine), axis f == a] then -1 else 1
+    turnSign a = if maybe False turnsReversed (Machine.rotaryForm machine a) then -1 else 1
 
 -- | Component of a vector along an axis.
 along :: Axis -> Pulses3 -> Pulses
@@ -97,6 +112,12 @@ along a (Pulses3 x y z) = case a of
   X -> x
   Y -> y
   Z -> z
+
+-- | Component of a vector about a rotary axis.
+about :: RotaryAxis -> Pulses2 -> Pulses
+about axis (Pulses2 a b) = case axis of
+  A -> a
+  B -> b
 
 -- | Number of a word in a frame. The content of the word decides which number it is: pulses on the
 -- machine's axes, a code, the number of a command, or the frame number. 'Nothing' if the frame is
@@ -111,6 +132,7 @@ number system state frame word = case content word of
       (motionNumber (isMirrored system) codes (motion frame))
   Along a ->
     present (isAxisPresent system state frame (presence word) a) (axisNumber system state frame a)
+  About a -> present (isTurnPresent frame (presence word) a) (turnNumber system state frame a)
   Centre a -> present (isCentrePresent (presence word)) (centreNumber a)
   FeedWord -> present (isFeedPresent (presence word)) code
   Command o -> commandNumber (presence word) o
@@ -140,7 +162,7 @@ number system state frame word = case content word of
 
 -- | True for a simple frame. Most frames are simple, and there is a faster reader for them.
 isSimple :: Frame -> Bool
-isSimple frame = null (commands frame) && not (isArc frame)
+isSimple frame = null (commands frame) && not (isArc frame) && turn frame == 0
 
 -- | True for a word that can occur in a simple frame. For every other word 'number' gives 'Nothing'
 -- in every simple frame.
@@ -148,6 +170,7 @@ occursInSimple :: Word' -> Bool
 occursInSimple word = case content word of
   Centre _ -> occursAnyway
   Command _ -> occursAnyway
+  About _ -> occursAnyway
   FrameNumber -> True
   Motion _ -> True
   Along _ -> True
@@ -216,12 +239,30 @@ axisNumber system state frame a = n
       Increments -> along a (increment frame)
       Positions -> along a (position state) + along a (increment frame)
 
+isTurnPresent :: Frame -> Presence -> RotaryAxis -> Bool
+isTurnPresent frame p a = case p of
+  Always -> True
+  InMotion -> Frame.isMoving frame
+  WhenNeeded -> isNeeded
+  WhenChanged -> isNeeded
+  where
+    isNeeded = Frame.turnAbout a frame /= 0
+
+turnNumber :: Axes -> State -> Frame -> RotaryAxis -> Int
+turnNumber system state frame a = n
+  where
+    Pulses n = about a (turnSigns system) * measured
+    measured = case measure system of
+      Increments -> Frame.turnAbout a frame
+      Positions -> about a (rotation state) + Frame.turnAbout a frame
+
 -- | State after a frame, from the words @ws@ of the layout and the state before the frame.
 after :: Axes -> [Word'] -> State -> Frame -> State
 after system ws state frame =
   State
     { ordinal = ordinal state + 1,
       position = position state + increment frame,
+      rotation = rotation state + turn frame,
       unwritten = case measure system of
         Increments -> unwritten state
         Positions -> filter (not . isWritten) (unwritten state),

@@ -12,6 +12,9 @@
 -- Each allows the tolerance and one pulse. Pockets, holes, the order of cuts, feeds, commands and
 -- the last position are compared as well.
 --
+-- The motions are those along x, y and z. So a tape that turns a rotary axis is not compared, and
+-- is never proven.
+--
 -- The /planned frames/ are those that the compiler made for the program. A tape with other frames
 -- can be proven as well: the planned frames only show where on the tape a pass has to be, and which
 -- cutter, feeds and commands it has.
@@ -65,7 +68,7 @@ import Verify.PassLocation qualified as PassLocation
 import Verify.Pocket qualified as Pocket
 import Verify.PocketDeviation (PassMotions (..))
 import Verify.PocketDeviation qualified as PocketDeviation
-import Verify.Proof (Finding (..), Proof (Proof), Refusal (NotCompensated))
+import Verify.Proof (ContourProof, Finding (..), Proof (Proof), Refusal (NotCompensated))
 import Verify.Proof qualified as Proof
 import Verify.ProofSubject (ProofSubject (..))
 import Verify.ProofSubject qualified as Subject
@@ -79,20 +82,33 @@ import Verify.TapeSummary qualified as TapeSummary
 prove :: Machine -> Toolpath -> FrameProgram -> [Frame] -> Proof
 prove machine path program frames = proofOf False (Subject.subjectOf machine path program frames)
 
--- | Proof of a subject. @isRestarted@ is true if contours begin where the tape begins them.
+-- | Proof of a subject. @isRestarted@ is true if contours begin where the tape begins them. The
+-- tape is not compared with the part if it turns a rotary axis.
 proofOf :: Bool -> ProofSubject -> Proof
-proofOf isRestarted subject =
+proofOf isRestarted subject = case TapeSummary.firstTurns (summary subject) of
+  [] -> compared isRestarted subject
+  turns -> summarized isRestarted subject [] [TurnsAxis n axis | (axis, n) <- turns]
+
+-- | Proof that consists of the summary of a tape, proofs of contours and findings.
+summarized :: Bool -> ProofSubject -> [ContourProof] -> [Finding] -> Proof
+summarized isRestarted subject contourProofs findings =
   Proof
     { Proof.frames = TapeSummary.count (summary subject),
-      Proof.contourProofs = contourProofs <> pocketProofs,
-      Proof.closure,
+      Proof.contourProofs,
+      Proof.closure = closureOf isRestarted subject,
       Proof.largestIncrement = TapeSummary.largestIncrement (summary subject),
       Proof.firstDifference = TapeSummary.firstDifference (summary subject),
-      Proof.findings =
-        sortOn
-          Proof.tapeOrder
-          (found <> unmatched <> notClosed closure deviations)
+      Proof.findings = sortOn Proof.tapeOrder findings
     }
+
+-- | Proof by comparison of all motions with the part.
+compared :: Bool -> ProofSubject -> Proof
+compared isRestarted subject =
+  summarized
+    isRestarted
+    subject
+    (contourProofs <> pocketProofs)
+    (found <> unmatched <> notClosed (closureOf isRestarted subject) deviations)
   where
     found = deviations <> otherFindings subject passes
     unmatched = if null found then sequenceFindings subject passes else []
@@ -114,7 +130,6 @@ proofOf isRestarted subject =
         ]
     passMotions = passMotionsOf subject passes
     deviations = concat contourFindings <> concat pocketFindings
-    closure = closureOf isRestarted subject
 
 -- | Motions in the passes of the pockets. If the tape does not match what the program asks for, it
 -- is refused. With as many frames as planned, the planned frames of a pass then show where its

@@ -30,7 +30,7 @@ import Frame.Frame (Violation)
 import Frame.Frame qualified as Frame
 import Geometry.Vec (Point)
 import Geometry.Vec qualified as Vec
-import Machine.Machine (CommandName (..), FeedCode (..), Machine)
+import Machine.Machine (CommandName (..), FeedCode (..), Machine, RotaryAxis)
 import Machine.Machine qualified as Machine
 import Report.Report (Report (label, message), ReportPlace (..), report)
 import Report.Report qualified as Report
@@ -114,6 +114,9 @@ data Finding
     NotInOrder Region
   | -- | A frame leaves the plane of a flat part.
     OffPlane Int
+  | -- | The first frame that turns a rotary axis, which the proof cannot judge: the frame, the
+    -- axis. All findings of such a tape are of this kind.
+    TurnsAxis Int RotaryAxis
   | -- | A hole is not drilled to its depth: the region of the hole, its centre.
     HoleMissing Region Point
   | -- | A frame cuts below the top of the part where the program does not cut, or deeper than the
@@ -150,6 +153,7 @@ tapeOrder finding = case finding of
   NotCleared {} -> (0, 3)
   NotInOrder _ -> (0, 3)
   OffPlane n -> (n, 4)
+  TurnsAxis n _ -> (n, 4)
   HoleMissing _ _ -> (0, 4)
   CutsElsewhere n _ -> (n, 4)
   NotAsked n _ -> (n, 4)
@@ -172,6 +176,7 @@ isOffContour finding = case finding of
   NotCleared {} -> True
   NotInOrder {} -> False
   OffPlane {} -> False
+  TurnsAxis {} -> False
   HoleMissing {} -> False
   CutsElsewhere {} -> False
   NotAsked {} -> False
@@ -285,6 +290,13 @@ toReport machine finding = case finding of
       (InSource region)
       "the tape does not clear the depths of this pocket in their order"
   OffPlane n -> wrong "E0705" InFile (frameWord n <> " leaves the plane of the part (it moves z)")
+  TurnsAxis n axis ->
+    (wrong "E0718" InFile (frameWord n <> " turns the rotary axis " <> rotaryWord axis))
+      { message =
+          [ "The proof follows the cutter along x, y and z only. It cannot judge a tape that turns \
+            \the part or the head."
+          ]
+      }
   HoleMissing region p ->
     wrong
       "E0710"
@@ -378,6 +390,8 @@ refusalWords refusal = case refusal of
   ByRule broken -> case broken of
     Frame.OverCapacity n axis d ->
       (n, "moves " <> axisWord axis <> " by " <> pulses d <> ", more than its field holds", [])
+    Frame.TurnOverCapacity n axis d ->
+      (n, "turns " <> rotaryWord axis <> " by " <> pulses d <> ", more than its field holds", [])
     Frame.BadCentre n ->
       (n, "has no centre for its arc", ["It is missing, or it is more than its fields hold."])
     Frame.NoSuchFeedCode n (FeedCode c) ->
@@ -412,6 +426,10 @@ refusalWords refusal = case refusal of
       Machine.X -> "x"
       Machine.Y -> "y"
       Machine.Z -> "z"
+
+-- | Name of a rotary axis.
+rotaryWord :: RotaryAxis -> Text
+rotaryWord axis = Machine.contentName (Machine.About axis)
 
 -- | Speed in words.
 speed :: Machine -> Speed -> Text

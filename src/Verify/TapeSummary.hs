@@ -13,6 +13,7 @@ import Control.Applicative ((<|>))
 import Data.List (foldl')
 import Frame.Frame (Frame (..), PlannedFrame)
 import Frame.Frame qualified as Frame
+import Machine.Machine (RotaryAxis)
 
 -- | Summary of a tape. Frames are numbered from 1.
 data TapeSummary = TapeSummary
@@ -25,6 +26,8 @@ data TapeSummary = TapeSummary
     -- | number of the first frame that ends at another height than the start position; Nothing if
     -- the tape stays at that height
     firstRisen :: Maybe Int,
+    -- | each rotary axis that the tape turns, with the number of the first frame that does
+    firstTurns :: [(RotaryAxis, Int)],
     -- | number of the first frame that differs from the planned frame of the same number, or that
     -- exists only on the tape or only in the plan; Nothing if there is no difference
     firstDifference :: Maybe Int,
@@ -46,7 +49,7 @@ summarize begin@(Pulses3 _ _ startHeight) planned frames = case missing of
   where
     Comparison summary _ missing =
       foldl' (withFrame startHeight) (Comparison empty begin planned) frames
-    empty = TapeSummary 0 begin 0 Nothing Nothing True
+    empty = TapeSummary 0 begin 0 Nothing [] Nothing True
 
 -- | Summary of the frames of a tape that are already compared, the position after the planned
 -- frames that are already compared, and the planned frames that are not yet compared.
@@ -62,6 +65,7 @@ withFrame startHeight (Comparison summary plannedEnd planned) f =
         endPosition = end,
         largestIncrement = Pulses3 (max a (abs dx)) (max b (abs dy)) (max c (abs dz)),
         firstRisen = firstRisen summary <|> if height == startHeight then Nothing else Just number,
+        firstTurns = firstTurns summary <> turns,
         firstDifference = firstDifference summary <|> if isPlanned then Nothing else Just number,
         isAligned = isAligned summary && not (null planned) && isNear end plannedEnd'
       }
@@ -77,6 +81,11 @@ withFrame startHeight (Comparison summary plannedEnd planned) f =
     Pulses3 dx dy dz = increment f
     Pulses3 a b c = largestIncrement summary
     height = z + dz
+    turns =
+      [ (axis, number)
+        | axis <- Frame.turnedAxes f,
+          axis `notElem` map fst (firstTurns summary)
+      ]
     isPlanned = case planned of
       p : _ -> Frame.frame p == f
       [] -> False

@@ -111,6 +111,7 @@ straight code from to =
   [ Frame
       { motion = Linear,
         increment = to - from,
+        turn = 0,
         centre = 0,
         feedCode = code,
         braking = False,
@@ -165,6 +166,7 @@ arcFrames machine code z at s = case (Segment.sagitta s, candidates) of
       Frame
         { motion = Circular (if positive then CounterClockwise else Clockwise),
           increment = end - at,
+          turn = 0,
           centre = c,
           feedCode = code,
           braking = False,

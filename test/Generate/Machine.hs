@@ -6,7 +6,7 @@
 module Generate.Machine (machine, frames) where
 
 import Base.PulseVector (Pulses2 (..), Pulses3 (..))
-import Base.Quantity (Mm (..), Pulses (..))
+import Base.Quantity (Mm (..), Pulses (..), radians)
 import Data.Bits (shiftL, (.|.))
 import Data.Char (intToDigit, ord)
 import Data.List.NonEmpty qualified as NonEmpty
@@ -30,6 +30,8 @@ machine = oneof [withFixedRows, lettered, printed]
 -- | The properties of a machine that do not depend on the kind of its layout.
 data Shared = Shared
   { used :: [Axis],
+    -- | the rotary axes
+    turning :: [RotaryAxis],
     -- | the motion codes, if the layout has a word for them
     motions :: Maybe MotionCodes,
     arcKind :: Arcs,
@@ -46,6 +48,7 @@ data Shared = Shared
 shared :: Gen Shared
 shared = do
   used <- shuffle =<< elements [[X, Y], [X, Y, Z], [X], [Z, Y]]
+  turning <- shuffle =<< elements [[], [], [A], [B], [A, B]]
   moving <- arbitrary
   codes <- shuffle [0 .. 9]
   quick <- arbitrary
@@ -74,8 +77,12 @@ shared = do
           AxisForm a . Mm <$> elements [0.001, 0.01, 0.02] <*> arbitrary <*> arbitrary <*> pure True
       )
       used
-  let bottom = blankMachine (NonEmpty.fromList forms) arcKind how feedTable
-  pure Shared {used, motions, arcKind, how, feedTable, feedDigits, bottom}
+  rotary <-
+    traverse
+      (\a -> RotaryForm a . radians <$> elements [0.001, 0.01, 0.02] <*> arbitrary)
+      turning
+  let bottom = (blankMachine (NonEmpty.fromList forms) arcKind how feedTable) {rotaryAxes = rotary}
+  pure Shared {used, turning, motions, arcKind, how, feedTable, feedDigits, bottom}
 
 -- | A machine with the given properties, whose layout and tape code are placeholders.
 blankMachine :: NonEmpty.NonEmpty AxisForm -> Arcs -> AxisMeasure -> FeedCodes -> Machine
@@ -105,6 +112,7 @@ blankMachine forms arcKind how feedTable =
             skips = []
           },
       axes = forms,
+      rotaryAxes = [],
       arcs = arcKind,
       layout =
         Layout {items = NonEmpty.fromList [Literal "x"], measure = how, separator = ""},
@@ -205,11 +213,12 @@ fixedWords s = do
             )
       )
       (used s)
+  turnWords <- traverse (\a -> signed (About a) axisDigits []) (turning s)
   centreWords <-
     traverse (\a -> signed (Centre a) centreDigits []) (if arcKind s == NoArcs then [] else [X, Y])
   mark <- elements [Marker, BrakingHole, NoHole]
   shuffle
-    ( axisWords <> centreWords
+    ( axisWords <> turnWords <> centreWords
         <> [plain FrameNumber numberDigits [] | numberDigits > 0]
         <> [plain (Motion m) 1 [] | Just m <- [motions s]]
         <> [plain FeedWord (feedDigits s) [mark]]
@@ -257,7 +266,7 @@ lettered = do
   s <- shared
   tracks <- choose (5, 8)
   evenTrack <- if tracks > 5 then elements [Nothing, Just tracks] else pure Nothing
-  letters <- shuffle "АБВГДЕЖИКЛМНПС"
+  letters <- shuffle "АБВГДЕЖИКЛМНПРС"
   modulus <- choose (2, 10)
   checked <- elements [0, 1, 2 :: Int]
   spare <- elements [Counted, Skipped]
@@ -324,6 +333,7 @@ addressed s addresses signs = do
       contents =
         [(FrameNumber, plain 3) | count > 1] <> [(Motion m, plain 2) | Just m <- [motions s]]
           <> [(Along a, axisForm') | a <- used s]
+          <> [(About a, axisForm') | a <- turning s]
           <> [(Centre a, axisForm') | arcKind s /= NoArcs, a <- [X, Y]]
           <> [(FeedWord, plain (feedDigits s))]
           <> take
@@ -343,6 +353,7 @@ addressed s addresses signs = do
       FrameNumber -> pure Always
       Motion _ -> elements [Always, InMotion]
       Along _ -> elements [Always, InMotion, WhenNeeded]
+      About _ -> elements [Always, InMotion, WhenNeeded]
       Centre _ -> elements [Always, InMotion, WhenNeeded]
       FeedWord -> elements [Always, InMotion, WhenNeeded, WhenChanged]
       Command (CommandName "none") -> pure WhenNeeded
@@ -406,15 +417,21 @@ frames m = do
           Pulses <$> choose (negate (reach a), reach a)
      in Pulses3 <$> on X <*> on Y <*> on Z
   feeds' <- vectorOf 2 (feedOf m)
-  (,) start <$> go n feeds' start
+  (,) start <$> go n feeds' (Place start 0)
   where
     reach a = let Pulses c = capacity m a in c
-    go :: Int -> [FeedCode] -> Pulses3 -> Gen [Frame]
-    go n feeds' at
+    go :: Int -> [FeedCode] -> Place -> Gen [Frame]
+    go n feeds' from
       | n <= 0 = pure []
       | otherwise = do
-        f <- frame m feeds' at
-        (f :) <$> go (n - 1) feeds' (at + increment f)
+        f <- frame m feeds' from
+        (f :) <$> go (n - 1) feeds' (placeAfter f from)
+
+-- | Position of the cutter, and position of the rotary axes, in pulses.
+data Place = Place {at :: Pulses3, rotated :: Pulses2}
+
+placeAfter :: Frame -> Place -> Place
+placeAfter f from = Place (at from + increment f) (rotated from + turn f)
 
 -- | A feed code of a machine.
 feedOf :: Machine -> Gen FeedCode
@@ -422,9 +439,9 @@ feedOf m = case codes (feeds m) of
   Direct a b -> FeedCode <$> choose (a, b)
   Listed table -> elements (Map.keys table)
 
--- | A frame that starts at a position and has one of the given feeds.
-frame :: Machine -> [FeedCode] -> Pulses3 -> Gen Frame
-frame m feeds' at = do
+-- | A frame that starts at a place and has one of the given feeds.
+frame :: Machine -> [FeedCode] -> Place -> Gen Frame
+frame m feeds' from = do
   f <-
     frequency
       ( [(6, straightway)]
@@ -432,24 +449,30 @@ frame m feeds' at = do
           <> [(2, only) | not (null (orderNames m))]
           <> [(6, round') | arcs m /= NoArcs]
       )
-  if null (Frame.violations m [f]) && fits f then pure f else frame m feeds' at
+  if null (Frame.violations m [f]) && fits f then pure f else frame m feeds' from
   where
     fits f =
-      and
-        [ abs p <= capacity m a || measure (layout m) == Increments
-          | (a, p) <- zip [X, Y, Z] (parts (at + increment f))
-        ]
+      measure (layout m) == Increments
+        || and
+          [ abs p <= most
+            | let Place p3 p2 = placeAfter f from,
+              (most, p) <-
+                zip
+                  (map (capacity m) [X, Y, Z] <> map (turnCapacity m) [A, B])
+                  (parts p3 <> turnParts p2)
+          ]
     straightway = do
-      d <- move m at
+      (d, t) <- moveAndTurn m from
       base <- atFeed
-      pure base {motion = Linear, increment = d}
+      pure base {motion = Linear, increment = d, turn = t}
     rapidly = do
-      d <- move m at
+      (d, t) <- moveAndTurn m from
       given <- ordersOf m 3
       pure
         Frame
           { motion = Rapid,
             increment = d,
+            turn = t,
             centre = 0,
             feedCode = FeedCode 0,
             braking = False,
@@ -458,7 +481,7 @@ frame m feeds' at = do
     only = Frame.commandFrame <$> ordersOf m 1
     round' = do
       base <- atFeed
-      (sense, d, c) <- arc m at
+      (sense, d, c) <- arc m (at from)
       pure base {motion = Circular sense, increment = d, centre = c}
     atFeed = frameAt m =<< elements feeds'
 
@@ -474,6 +497,7 @@ frameAt m speed' = do
     Frame
       { motion = Linear,
         increment = 0,
+        turn = 0,
         centre = 0,
         feedCode = speed',
         braking = isSlow,
@@ -483,24 +507,46 @@ frameAt m speed' = do
 parts :: Pulses3 -> [Pulses]
 parts (Pulses3 x y z) = [x, y, z]
 
+turnParts :: Pulses2 -> [Pulses]
+turnParts (Pulses2 a b) = [a, b]
+
+-- | The increment and the turn of a move from a place. Some moves turn nothing, and some do nothing
+-- else.
+moveAndTurn :: Machine -> Place -> Gen (Pulses3, Pulses2)
+moveAndTurn m from = do
+  d <- move m (at from)
+  t <- turned m (rotated from)
+  if null (rotaryAxes m)
+    then pure (d, 0)
+    else frequency [(3, pure (d, 0)), (3, pure (d, t)), (1, pure (0, t))]
+
 -- | The increment of a move from a position, within the capacity of the words. The increment along
 -- an axis may be 0, small, or as large as possible.
 move :: Machine -> Pulses3 -> Gen Pulses3
 move m (Pulses3 x y z) = Pulses3 <$> along X x <*> along Y y <*> along Z z
   where
-    along a p = do
-      let Pulses c = capacity m a
-          Pulses here = p
-          (low, high) = case measure (layout m) of
-            Increments -> (-c, c)
-            Positions -> (max (-c) (-c - here), min c (c - here))
-      Pulses
-        <$> frequency
-          [ (2, pure 0),
-            (1, elements [max low (-1), min high 1]),
-            (4, choose (low, high)),
-            (1, elements [low, high])
-          ]
+    along a = component m (capacity m a)
+
+-- | The turn of a move from a position of the rotary axes, in the same manner.
+turned :: Machine -> Pulses2 -> Gen Pulses2
+turned m (Pulses2 a b) = Pulses2 <$> about A a <*> about B b
+  where
+    about axis = component m (turnCapacity m axis)
+
+-- | The pulses on one axis in a move from a position, if the axis's word can hold a given number.
+component :: Machine -> Pulses -> Pulses -> Gen Pulses
+component m (Pulses c) (Pulses here) =
+  Pulses
+    <$> frequency
+      [ (2, pure 0),
+        (1, elements [max low (-1), min high 1]),
+        (4, choose (low, high)),
+        (1, elements [low, high])
+      ]
+  where
+    (low, high) = case measure (layout m) of
+      Increments -> (-c, c)
+      Positions -> (max (-c) (-c - here), min c (c - here))
 
 -- | An arc from a position, within the capacity of the words: its sense, its increment, and its
 -- centre relative to its start. It lies in one quadrant if the machine requires that.

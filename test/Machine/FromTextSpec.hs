@@ -1,7 +1,7 @@
 -- | Tests of machine descriptions: the built-in ones, descriptions with mistakes, and random ones.
 module Machine.FromTextSpec (spec) where
 
-import Base.Quantity (Feed (..), Mm (..))
+import Base.Quantity (Feed (..), Mm (..), radians)
 import Base.Region qualified as Region
 import Base.Result (Result (..))
 import Base.Result qualified as Result
@@ -343,21 +343,25 @@ mostNumber :: Machine -> Text -> Int
 mostNumber m n = fromMaybe 0 (commandCapacity m (CommandName n))
 
 -- | Changes a random machine into one that a description can express. An axis gets the resolution
--- of the last decimal of its word. A feed word that is not in every frame is in frames with a new
--- feed; a command word, in frames that give the command.
+-- of the last decimal of its word, in mm or in degrees. A feed word that is not in every frame is
+-- in frames with a new feed; a command word, in frames that give the command.
 describable :: Machine -> Machine
 describable m =
-  m {axes = fmap pulsed (axes m), layout = (layout m) {items = fmap fitting (items (layout m))}}
+  m
+    { axes = fmap pulsed (axes m),
+      rotaryAxes = map turning (rotaryAxes m),
+      layout = (layout m) {items = fmap fitting (items (layout m))}
+    }
   where
-    pulsed a =
-      case nub
-        [ decimals (form w)
-          | w <- wordsOf m,
-            content w `elem` [Along (axis a), Centre (axis a)],
-            decimals (form w) > 0
-        ] of
-        k : _ -> a {resolution = Mm (10 ^^ negate k)}
-        [] -> a
+    pulsed a = case places [Along (axis a), Centre (axis a)] of
+      k : _ -> a {resolution = Mm (10 ^^ negate k)}
+      [] -> a
+    turning a = case places [About (rotaryAxis a)] of
+      k : _ -> a {pulseAngle = radians (10 ^^ negate k)}
+      [] -> a
+    places contents =
+      nub
+        [decimals (form w) | w <- wordsOf m, content w `elem` contents, decimals (form w) > 0]
     fitting item = case item of
       AWord w -> AWord w {presence = expressible (content w) (presence w)}
       Literal _ -> item

@@ -6,7 +6,7 @@ module Machine.ToText
 where
 
 import Base.Decimal qualified as Decimal
-import Base.Quantity (Feed (..), Mm (..))
+import Base.Quantity (Feed (..), Mm (..), degrees)
 import Data.Bits (testBit)
 import Data.Char (ord)
 import Data.List.NonEmpty qualified as NonEmpty
@@ -25,6 +25,7 @@ toText m =
         <> block "tape" (tapeLines (medium m))
         <> block ("code " <> quoted (codeName (code m))) (codeLines (tracks (medium m)) (code m))
         <> concatMap axisLines (NonEmpty.toList (axes m))
+        <> concatMap rotaryLines (rotaryAxes m)
         <> ["arcs " <> arcsText (arcs m)]
         <> block "frame" (frameLines (layout m))
         <> block "feeds" (feedLines (feeds m))
@@ -87,6 +88,14 @@ axisLines a =
         <> ["moves unsure" | not (isDriven a)]
     )
 
+rotaryLines :: RotaryForm -> [Text]
+rotaryLines a =
+  block
+    ("axis " <> contentName (About (rotaryAxis a)))
+    ( ["pulse " <> Decimal.fixed 9 (degrees (pulseAngle a)) <> " deg"]
+        <> ["direction reversed" | turnsReversed a]
+    )
+
 arcsText :: Arcs -> Text
 arcsText a = case a of
   NoArcs -> "none"
@@ -118,6 +127,7 @@ contentText c = case c of
   FrameNumber -> "frame-number"
   Motion _ -> "motion"
   Along _ -> "along " <> contentName c
+  About _ -> "along " <> contentName c
   Centre _ -> contentName c
   FeedWord -> "feed"
   Command (CommandName n) -> "command " <> quoted n

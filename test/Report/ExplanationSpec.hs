@@ -83,7 +83,8 @@ raisedElsewhere =
         "E0714",
         "E0715",
         "E0716",
-        "E0717"
+        "E0717",
+        "E0718"
       ]
     ),
     ( "files and the command line",

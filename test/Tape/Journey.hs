@@ -71,15 +71,26 @@ journey machine =
         <> [ Frame
                { motion = Linear,
                  increment = Pulses3 (Pulses x) (Pulses y) (if hasZ && x > 0 then 5 else 0),
+                 turn = 0,
                  centre = 0,
                  feedCode = code,
                  braking = slow && hasBrakingHole,
                  commands = if y == 0 then concat (take 1 commandFrames) else []
                }
            ]
+        <> [ (Frame.commandFrame [])
+               { motion = Linear,
+                 increment = Pulses3 (Pulses x) 0 0 * Pulses3 moved 0 0,
+                 turn,
+                 feedCode = code
+               }
+             | turn <- [Pulses2 (Pulses (-x)) (Pulses y), Pulses2 0 (Pulses x)],
+               moved <- [0, 1]
+           ]
         <> [ Frame
                { motion = Circular sense,
                  increment = Pulses3 (Pulses x) (Pulses y) 0,
+                 turn = 0,
                  centre = c,
                  feedCode = code,
                  braking = slow && hasBrakingHole,
@@ -92,6 +103,7 @@ journey machine =
       Frame
         { motion = Rapid,
           increment = Pulses3 (Pulses x) (Pulses y) 0,
+          turn = 0,
           centre = 0,
           feedCode = FeedCode 0,
           braking = False,

@@ -27,6 +27,7 @@ import Machine.Machine
     LayoutItem (..),
     Machine,
     Presence (..),
+    RotaryForm (..),
     Spare (..),
   )
 import Machine.Machine qualified as Machine
@@ -213,6 +214,22 @@ randomMachineLaws = do
             ==> Punch.write reversedX (mirroredPosition at) (map mirroredFrame fs)
               === Punch.write m at fs
 
+  it
+    "a rotary axis in the opposite sense negates its numbers (catches a sign that is forgotten)"
+    $ forAll (Generate.machine `suchThat` (not . null . Machine.rotaryAxes)) $ \m ->
+      forAll (Generate.frames m) $ \(at, fs) ->
+        let isFirst f = take 1 (Machine.rotaryAxes m) == [f]
+            reversedFirst =
+              m
+                { Machine.rotaryAxes =
+                    [ if isFirst f then f {turnsReversed = not (turnsReversed f)} else f
+                      | f <- Machine.rotaryAxes m
+                    ]
+                }
+            sign a = if or [rotaryAxis f == a | f <- Machine.rotaryAxes m, isFirst f] then -1 else 1
+            turnedBack f = f {turn = turn f * Pulses2 (sign Machine.A) (sign Machine.B)}
+         in Punch.write reversedFirst at (map turnedBack fs) === Punch.write m at fs
+
 -- | Row of a digit, a sign or the decimal point, in the code of a machine.
 numberRow :: Machine -> Gen Word8
 numberRow m = elements [Symbol.holes (Symbol.symbol table c) | c <- "0123456789+-."]
@@ -236,6 +253,9 @@ withCoverage m fs =
     . cover 3 (Machine.arcs m `elem` [Arcs True False, Arcs True True]) "quadrants"
     . cover 10 (not (null [() | Frame {motion = Rapid} <- fs])) "rapid moves"
     . cover 20 (not (all (null . commands) fs)) "commands"
+    . cover 15 (any ((/= 0) . turn) fs) "turns"
+    . cover 5 (any (\f -> turn f /= 0 && increment f == 0) fs) "turns alone"
+    . cover 15 (any turnsReversed (Machine.rotaryAxes m)) "reversed rotary axes"
     . cover 1 (any Frame.braking fs) "braking"
     . cover
       20
@@ -510,6 +530,7 @@ straight x y z s given =
   Frame
     { motion = Linear,
       increment = Pulses3 (Pulses x) (Pulses y) (Pulses z),
+      turn = 0,
       centre = 0,
       feedCode = FeedCode s,
       braking = False,

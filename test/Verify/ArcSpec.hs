@@ -120,6 +120,7 @@ spec = do
                   Frame
                     { motion = Circular Clockwise,
                       increment = 0,
+                      turn = 0,
                       centre = Pulses2 (-1000) 0,
                       feedCode = feedCode f,
                       braking = False,
@@ -271,6 +272,7 @@ quarter =
   Frame
     { motion = Circular CounterClockwise,
       increment = Pulses3 (-1000) 1000 0,
+      turn = 0,
       centre = Pulses2 (-1000) 0,
       feedCode = FeedCode 1,
       braking = False,
@@ -325,6 +327,7 @@ findingsBeside sense atStart d = findings machine path (Arcs.quantise machine pa
       Frame
         { motion = Circular sense,
           increment = Pulses3 (ex - sx) (ey - sy) 0,
+          turn = 0,
           centre = Pulses2 (-sx) (-sy),
           feedCode = FeedCode 1,
           braking = False,

@@ -167,6 +167,7 @@ spec = do
       Frame
         { motion = Linear,
           increment = Pulses3 (Pulses (round (mm / 0.02 :: Double))) 0 0,
+          turn = 0,
           centre = 0,
           feedCode = FeedCode code,
           braking = False,

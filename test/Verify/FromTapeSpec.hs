@@ -1,7 +1,7 @@
 -- | Proof of tapes along contours: the flange, random contours, and damaged tapes of both.
 module Verify.FromTapeSpec (spec) where
 
-import Base.PulseVector (Pulses3 (..))
+import Base.PulseVector (Pulses2 (..), Pulses3 (..))
 import Base.Quantity (Mm (..), Pulses (..), Rad (..))
 import Base.Region (Located (..), Region (Region))
 import Base.Result qualified as Result
@@ -10,14 +10,14 @@ import Compile qualified
 import Data.List.NonEmpty qualified as NonEmpty
 import Files (readText)
 import Flange qualified
-import Frame.Frame (Frame (commands, feedCode, increment))
+import Frame.Frame (Frame (commands, feedCode, increment, motion, turn), FrameMotion (..))
 import Frame.Frame qualified as Frame
 import Frame.FromToolpath qualified as FromToolpath
 import Generate qualified
 import Geometry.Segment (Segment (..))
 import Geometry.Segment qualified as Segment
 import Geometry.Vec qualified as Vec
-import Machine.Machine (CommandName (..), FeedCode (..), Machine)
+import Machine.Machine (CommandName (..), FeedCode (..), Machine, RotaryAxis (..))
 import Machines qualified
 import Part.Part qualified as Part
 import Project.LoadedProgram qualified as LoadedProgram
@@ -102,6 +102,26 @@ spec = do
     "a command that the program does not give is found, also when the frames cannot be compared \
     \one by one"
     $ findings (proofOf (commanded (doubledFirst Flange.frames))) `shouldSatisfy` any isCommand
+  it
+    "a tape that turns a rotary axis is refused, whatever else it does, and its first turn is named \
+    \(catches a proof of three of five axes)"
+    $ case Result.output (FromToolpath.quantise n55 (path Flange.analysis)) of
+      Nothing -> property False
+      Just own ->
+        let fs = map Frame.frame (Frame.plannedFrames own)
+            proofWith = findings . Verify.prove n55 (path Flange.analysis) own
+            turning t = (Frame.commandFrame []) {motion = Linear, feedCode = FeedCode 60, turn = t}
+         in forAll (choose (0, length fs - 1)) $ \k ->
+              forAll (elements [(A, Pulses2 1 0), (B, Pulses2 0 (-500))]) $ \(axis, t) ->
+                let (earlier, later) = splitAt k fs
+                    turned = [f {turn = t} | f <- take 1 later, motion f `elem` [Linear, Rapid]]
+                 in proofWith fs === []
+                      .&&. proofWith (earlier <> [turning t, turning (-t)] <> later)
+                      === [TurnsAxis (k + 1) axis]
+                      .&&. conjoin
+                        [ proofWith (earlier <> [f] <> drop 1 later) === [TurnsAxis (k + 1) axis]
+                          | f <- turned
+                        ]
   it
     "random contours with random cutters are proven; for a tolerance that their chords exceed they \
     \are not (catches a proof of the nodes alone)"
@@ -256,6 +276,9 @@ spec = do
 
 lkp01f :: Machine
 lkp01f = Machines.named "lkp-01f"
+
+n55 :: Machine
+n55 = Machines.named "n55"
 
 iso6983 :: Machine
 iso6983 = Machines.named "iso6983"

@@ -90,6 +90,7 @@ spec = describe "a nose without radius" $ do
       Frame
         { motion = Linear,
           increment = d,
+          Frame.turn = 0,
           Frame.centre = 0,
           feedCode = Machine.rapidCode machine,
           braking = False,

@@ -1,8 +1,9 @@
 {-# LANGUAGE BangPatterns #-}
 {-# OPTIONS_GHC -O2 #-}
 
--- | Fast reader of simple frames, which have neither an arc nor a command. Most frames of a long
--- tape are simple. A frame is a block of ISO 6983; its layout gives its symbols and words in order.
+-- | Fast reader of simple frames, which have neither an arc nor a command, and turn no rotary axis.
+-- Most frames of a long tape are simple. A frame is a block of ISO 6983; its layout gives its
+-- symbols and words in order.
 --
 -- If this reader gives a frame, 'Tape.FrameReader.wordByWord' gives the same frame. The reader
 -- gives 'NotSimple' for every other frame: one that is not simple, one with a fault, and one that
@@ -30,6 +31,7 @@ import Machine.Machine
     MotionCodes (..),
     NumberForm (..),
     Presence (..),
+    RotaryAxis,
     Sign (..),
     Word' (..),
   )
@@ -79,15 +81,25 @@ readFrame layout state rows begin
         | otherwise -> NotSimple
         where
           at = Layout.rowAfterAddress rows k (if followsWord then joined else cs)
-    -- True if the number @n@ of the word @w@ is possible in a simple frame. The frame number
-    -- follows from the state; words of arcs and commands are 0 in a simple frame.
+    -- True if the number @n@ of the word @w@ is possible in a simple frame. The frame number and
+    -- the position of a rotary axis follow from the state; words of arcs and commands are 0 in a
+    -- simple frame.
     isExpected w n = case content w of
       FrameNumber -> n == ordinal state `mod` 10 ^ digits (form w)
       Centre _ -> n == 0
       Command _ -> n == 0
       Motion _ -> True
       Along _ -> True
+      About a -> Pulses n == stillNumber layout state a
       FeedWord -> True
+
+-- | Number in the word of the rotary axis @a@ that means no turn: 0, or the present position.
+stillNumber :: PreparedLayout -> State -> RotaryAxis -> Pulses
+stillNumber layout state a = case ModalState.measure axes of
+  Increments -> 0
+  Positions -> ModalState.about a (ModalState.turnSigns axes * rotation state)
+  where
+    axes = Layout.axes layout
 
 -- | Numbers of the words of a frame, as they are on the tape. The numbers of axes are pulses on the
 -- machine's axes. For an axis without a word in the frame, the number is the one that means no
@@ -120,13 +132,15 @@ withoutWords layout state =
       Increments -> 0
       Positions -> ModalState.signs (Layout.axes layout) * position state
 
--- | Sets the number of the word with the content @c@ to @n@. Frame numbers, centres and commands
--- are not kept, because 'readFrame' has already compared them with the number that they must have.
+-- | Sets the number of the word with the content @c@ to @n@. Frame numbers, rotary axes, centres
+-- and commands are not kept, because 'readFrame' has already compared them with the number that
+-- they must have.
 withNumber :: Content -> Int -> Numbers -> Numbers
 withNumber c n ns = case c of
   Along X -> ns {numberX = n}
   Along Y -> ns {numberY = n}
   Along Z -> ns {numberZ = n}
+  About _ -> ns
   Motion _ -> ns {motionNumber = n}
   FeedWord -> ns {feedNumber = n}
   FrameNumber -> ns
@@ -146,6 +160,7 @@ frameFrom layout state ns end
       Frame
         { motion = m,
           increment,
+          turn = 0,
           centre = 0,
           feedCode = FeedCode code,
           braking = False,
