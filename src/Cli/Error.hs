@@ -41,6 +41,16 @@ data Error
     SheetAssigned Text
   | -- | An input sheet cannot be formatted.
     SheetLaidOut
+  | -- | No description says how this machine's controller works.
+    NoController Text
+  | -- | The model of this machine's controller makes no pulses.
+    NoPulses Text
+  | -- | The switch that corrects the feed has no such position: the position, and those that it
+    -- has.
+    NoSuchOverride Int [Int]
+  | -- | The controller stops before a frame that it cannot run: the number of the frame, its feed,
+    -- and the largest feed that it can run there.
+    FeedTooHigh Int Double Double
   | -- | No report has the code that the user asks about. The arguments: this code as the user wrote
     -- it, and similar codes that exist, for the hint.
     UnknownCode Text [Text]
@@ -102,6 +112,42 @@ toReport err = case err of
   SheetLaidOut ->
     (wrong "E0914" InFile "an input sheet is no part program and has no layout")
       { hints = ["partc import makes a program of it."]
+      }
+  NoController machine ->
+    (wrong "E0815" InFile ("the description of " <> machine <> " has no section ‘controller’"))
+      { hints = ["Add the section to the description; docs/new-machine.md says how."]
+      }
+  NoPulses machine ->
+    (wrong "E0815" InFile ("the model of the controller of " <> machine <> " makes no pulses"))
+      { hints = ["Leave --pulses out: the times of the frames are known."]
+      }
+  NoSuchOverride n positions ->
+    ( wrong
+        "E0816"
+        InFile
+        ("the feed cannot be corrected to " <> Decimal.whole n <> " percent")
+    )
+      { hints =
+          [ if null positions
+              then "This controller has no switch for it."
+              else
+                "The switch has the positions "
+                  <> Text.intercalate ", " (map Decimal.whole positions)
+                  <> "."
+          ]
+      }
+  FeedTooHigh n asked most ->
+    ( wrong
+        "E0602"
+        InFile
+        ( "the controller cannot run frame "
+            <> Decimal.whole n
+            <> ": its feed "
+            <> Decimal.short 2 asked
+            <> " is too high"
+        )
+    )
+      { hints = ["The largest feed that it can run there is " <> Decimal.short 2 most <> "."]
       }
   UnknownCode code close ->
     (wrong "E0809" InFile ("no report has the code ‘" <> code <> "’"))

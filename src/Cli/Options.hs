@@ -2,6 +2,8 @@
 module Cli.Options
   ( Subcommand (..),
     CompileOptions (..),
+    RunOptions (..),
+    RunForm (..),
     Invocation (..),
     parser,
   )
@@ -47,6 +49,7 @@ data Subcommand
     ExportSheet FilePath (Maybe FilePath)
   | -- | the machine, without which the command fails; the tape
     Decode (Maybe Text) FilePath
+  | Run RunOptions
   | -- | the program, the drawing to write
     Plot FilePath (Maybe FilePath)
   | -- | the machine, without which the command fails; the rows to show; the tape
@@ -72,6 +75,25 @@ data CompileOptions = CompileOptions
     -- | true to write tapes without verification
     unproven :: Bool
   }
+  deriving stock (Eq, Show)
+
+-- | The arguments of @run@.
+data RunOptions = RunOptions
+  { -- | a program or a tape
+    runInput :: FilePath,
+    -- | name or file of the machine; nothing for the machine that the program names
+    runTarget :: Maybe Text,
+    runForm :: RunForm,
+    -- | first and last frame to show
+    fromFrame :: Maybe Int,
+    toFrame :: Maybe Int,
+    -- | position of the switch that corrects the feed, in percent
+    overrideAt :: Maybe Int
+  }
+  deriving stock (Eq, Show)
+
+-- | Form in which a run is written.
+data RunForm = RunAsTable | RunAsJson | PulseStream
   deriving stock (Eq, Show)
 
 -- | The parser of the whole command line; the argument is the version of partc.
@@ -129,6 +151,11 @@ commands =
         "List the frames of a tape"
         "partc decode -t lkp-01f flange.tape"
         (Decode <$> optional target <*> tape),
+      entry
+        "run"
+        "Run a tape on its controller, with times and pulses"
+        "partc run flange.part -t lkp-01f"
+        (Run <$> runOptions),
       entry
         "tape"
         "Draw the rows of a tape with their meaning"
@@ -193,6 +220,38 @@ compileOptions =
     <*> many target
     <*> optional (outputOption "The file to write, or a folder; - for standard output")
     <*> Opt.switch (Opt.long "no-verify" <> Opt.help "Write the tape without proving it")
+
+runOptions :: Parser RunOptions
+runOptions =
+  RunOptions
+    <$> programOrTape
+    <*> optional target
+    <*> form
+    <*> optional (frameOption "from" "Only this frame and later ones")
+    <*> optional (frameOption "to" "Only frames up to this one")
+    <*> optional
+      ( Opt.option
+          Opt.auto
+          ( Opt.long "override"
+              <> Opt.metavar "N"
+              <> Opt.help "The position of the switch that corrects the feed, in percent"
+          )
+      )
+  where
+    form =
+      Opt.flag' RunAsJson (Opt.long "json" <> Opt.help "One JSON object a line")
+        <|> Opt.flag'
+          PulseStream
+          (Opt.long "pulses" <> Opt.help "One line for each pulse: axis, sign, tick")
+        <|> pure RunAsTable
+    frameOption name description =
+      Opt.option Opt.auto (Opt.long name <> Opt.metavar "FRAME" <> Opt.help description)
+    programOrTape =
+      Opt.strArgument
+        ( Opt.metavar "FILE"
+            <> Opt.help "A part program, an input sheet, or a tape; - for a tape on standard input"
+            <> Opt.action "file"
+        )
 
 jsonFlag :: Parser Bool
 jsonFlag = Opt.switch (Opt.long "json" <> Opt.help "One JSON object a line")

@@ -11,16 +11,22 @@ module Cli.Output
     showReports,
     result,
     resultBytes,
+    resultStream,
     readBytes,
     writeFileWhole,
   )
 where
 
 import Base.Decimal qualified as Decimal
+import Base.LazyList (LazyList)
+import Base.LazyList qualified as LazyList
 import Base.Region (Source)
 import Control.Exception (onException, try)
+import Control.Monad (when)
 import Data.ByteString (ByteString)
 import Data.ByteString qualified as ByteString
+import Data.ByteString.Builder (Builder)
+import Data.ByteString.Builder qualified as Builder
 import Data.IORef (IORef, modifyIORef, newIORef, readIORef)
 import Data.Text (Text)
 import Data.Text qualified as Text
@@ -58,6 +64,7 @@ import System.IO.Error
     mkIOError,
     permissionErrorType,
   )
+import System.Mem (performMajorGC)
 import System.Posix.Files
   ( FileStatus,
     fileAccess,
@@ -96,8 +103,8 @@ defaultSettings :: OutputSettings
 defaultSettings =
   OutputSettings {format = HumanFormat, colour = Auto, quiet = False, werror = False, values = []}
 
--- | The exit status of a command. The constructors are in ascending order of severity. A command on
--- several files ends with the maximum of the statuses of these files.
+-- | The exit status of a command. The constructors are in ascending order of severity. A command
+-- on several files ends with the maximum of the statuses of these files.
 data Exit
   = Done
   | -- | the program or the tape has errors, or a file cannot be read or written
@@ -121,11 +128,12 @@ ioProblem e
     Errno closed = eBADF
 
 -- | The means to write the reports of one run of partc. In the SARIF format, one log contains the
--- reports of the whole run. They are kept in @collected@ until the end, the latest first. For other
--- formats the list stays empty.
+-- reports of the whole run. They are kept in @collected@ until the end, the latest first. For
+-- other formats the list stays empty.
 data Reporter = Reporter {settings :: OutputSettings, collected :: IORef [Filed]}
 
--- | Runs a command. In the SARIF format, writes the log of the collected reports after the command.
+-- | Runs a command. In the SARIF format, writes the log of the collected reports after the
+-- command.
 reporting :: OutputSettings -> (Reporter -> IO a) -> IO a
 reporting settings work = do
   collected <- newIORef []
@@ -138,8 +146,8 @@ reporting settings work = do
   pure a
 
 -- | Writes the reports about one file. The result is true if one of the reports stops the command:
--- an error, or a warning if 'werror' is true. @path@ is the name of the file; @source@ is its text,
--- to which the regions refer.
+-- an error, or a warning if 'werror' is true. @path@ is the name of the file; @source@ is its
+-- text, to which the regions refer.
 showReports :: Reporter -> Text -> Source -> [Report] -> IO Bool
 showReports Reporter {settings, collected} path source reports = do
   case format settings of
@@ -202,6 +210,30 @@ resultBytes bytes = either judge Right <$> try (ByteString.hPut stdout bytes *> 
       | otherwise = Left (ioProblem e)
     Errno pipe = ePIPE
 
+-- | Writes the parts of a stream to standard output, one after the other, and gives the value at
+-- its end. 'Left' is the reason of a failure. Nothing takes the place of the value if the reader
+-- of a pipe has closed it.
+--
+-- What is written is collected as garbage from time to time. So memory stays small even if the
+-- runtime of the program is set to collect rarely.
+resultStream :: LazyList e Builder -> IO (Either Text (Maybe e))
+resultStream = go (0 :: Int)
+  where
+    go n list = case list of
+      LazyList.End e -> either judge (const (Right (Just e))) <$> try (hFlush stdout)
+      LazyList.Next part more -> do
+        when (n `mod` partsToCollection == partsToCollection - 1) performMajorGC
+        written <- try (Builder.hPutBuilder stdout part)
+        either (pure . judge) (const (go (n + 1) more)) written
+    judge e
+      | ioe_errno e == Just pipe = Right Nothing
+      | otherwise = Left (ioProblem e)
+    Errno pipe = ePIPE
+
+-- | Count of parts after which garbage is collected.
+partsToCollection :: Int
+partsToCollection = 65536
+
 -- | The bytes of a file, or of standard input for @-@; or the reason why they cannot be read. A
 -- file of more than 'mostBytes' is refused, also one without an end, such as a device.
 readBytes :: FilePath -> IO (Either Text ByteString)
@@ -228,8 +260,8 @@ readAtMost most handle = go [] 0
 mostBytes :: Int
 mostBytes = 268435456
 
--- | Writes a file under a temporary name and renames it, so the old file stays until the new one is
--- complete. The new file has the permissions of the old one. A device or a pipe is written
+-- | Writes a file under a temporary name and renames it, so the old file stays until the new one
+-- is complete. The new file has the permissions of the old one. A device or a pipe is written
 -- directly. 'Left' is the reason of a failure.
 writeFileWhole :: FilePath -> ByteString -> IO (Either Text ())
 writeFileWhole path bytes = either problem Right <$> try write

@@ -36,6 +36,7 @@ import Cli.Output qualified as Output
 import Cli.OutputFile (writeTapes, writeText)
 import Cli.Progress qualified as Progress
 import Cli.ProofTable qualified as ProofTable
+import Cli.RunCommand qualified as RunCommand
 import Compile (Compiled (Compiled), Punched (..))
 import Compile qualified
 import Control.Exception (evaluate)
@@ -89,6 +90,7 @@ perform reporter command = case command of
   Import file output -> importSheet reporter file output
   ExportSheet file output -> exportSheet reporter file output
   Decode target tape -> decode reporter target tape
+  Run options -> RunCommand.run reporter options
   Plot file output -> plot reporter file output
   Machines name asText -> machines reporter name asText
   DrawTape target range tape -> drawTape reporter target range tape

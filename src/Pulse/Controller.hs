@@ -4,10 +4,12 @@
 -- program, the toolpath or the planned frames.
 module Pulse.Controller
   ( run,
+    measured,
     ticksPerSecond,
   )
 where
 
+import Base.LazyList (LazyList)
 import Base.PulseVector (Pulses3)
 import Data.List.NonEmpty qualified as NonEmpty
 import Machine.Controller (Controller (..), IntegratorControl (..), StepControl (..))
@@ -21,6 +23,9 @@ import Machine.Machine
 import Machine.Machine qualified as Machine
 import Pulse.ControllerRun (ControllerRun)
 import Pulse.IntegratorRun qualified as IntegratorRun
+import Pulse.PathPlanner qualified as PathPlanner
+import Pulse.RunMeasure (FrameMeasure, RunTotal)
+import Pulse.RunMeasure qualified as RunMeasure
 import Pulse.StepRun qualified as StepRun
 import Tape.Punch qualified as Punch
 import Tape.Tape (Tape)
@@ -37,14 +42,27 @@ run machine correction start tape = case Machine.controller machine of
     final = lastCommands machine
     frames = Punch.readInTurn machine start tape
 
--- | Frequency of the clock whose ticks a run counts; 'Nothing' if no model of the machine's
--- controller makes pulses.
+-- | Measures of the frames of a tape. The arguments are those of 'run'. 'Nothing' if the
+-- description of the machine has no controller.
+measured :: Machine -> Double -> Pulses3 -> Tape -> Maybe (LazyList RunTotal FrameMeasure)
+measured machine correction start tape = case Machine.controller machine of
+  Nothing -> Nothing
+  Just (Planning c) ->
+    Just (PathPlanner.measure machine c (lastCommands machine) frames)
+  Just (Stepping c) -> RunMeasure.measure machine (stepClock c) <$> pulses
+  Just (Integrating c) -> RunMeasure.measure machine (clock c) <$> pulses
+  where
+    frames = Punch.readInTurn machine start tape
+    pulses = run machine correction start tape
+
+-- | Frequency of the clock whose ticks 'measured' counts; 'Nothing' if the description of the
+-- machine has no controller.
 ticksPerSecond :: Machine -> Maybe Int
 ticksPerSecond machine = case Machine.controller machine of
   Nothing -> Nothing
   Just (Stepping c) -> Just (stepClock c)
   Just (Integrating c) -> Just (clock c)
-  Just (Planning _) -> Nothing
+  Just (Planning _) -> Just PathPlanner.clock
 
 -- | Commands of the last frame of a program; none if the machine's tapes have no such frame.
 lastCommands :: Machine -> [(CommandName, Int)]

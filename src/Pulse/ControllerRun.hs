@@ -43,7 +43,7 @@ data FrameStart = FrameStart
   { startTick :: Tick,
     -- | number of the frame, from 1
     number :: Int,
-    frame :: Frame,
+    frameStarted :: Frame,
     -- | 'Nothing' for a frame without motion
     path :: Maybe FramePath,
     -- | ticks for which the controller has waited until the frame was read
@@ -62,7 +62,8 @@ data StopReason
   | -- | A frame cannot be read.
     Unreadable Damage
   | -- | The controller cannot run the feed of this frame: the number of the frame, its feed, and
-    -- the largest feed that it can run in this frame. Both are in mm\/min, or in pulses per second.
+    -- the largest feed that it can run in this frame. Both are in mm\/min, or in pulses per
+    -- second.
     TooFast Int Double Double
   | -- | The switch that corrects the feed is at 0: the number of the frame.
     FeedHeld Int

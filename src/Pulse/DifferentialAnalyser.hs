@@ -5,11 +5,11 @@
 -- leading axis, the axis makes a pulse too, and the remainder loses that number. All remainders
 -- start at half of it.
 --
--- After n of N cycles, an axis with d pulses has made the whole number of pulses that is nearest to
--- n·d/N. So it is never further than half a pulse from the line, measured along the axis, and the
--- end is exact. Source: J. E. Bresenham, "Algorithm for computer control of a digital plotter", IBM
--- Systems Journal 4 (1965), in the form of a differential analyser. The numbers here are twice
--- those of the text, so that one half is a whole number.
+-- After n of N cycles, an axis with d pulses has made the whole number of pulses that is nearest
+-- to n·d/N. So it is never further than half a pulse from the line, measured along the axis, and
+-- the end is exact. Source: J. E. Bresenham, "Algorithm for computer control of a digital
+-- plotter", IBM Systems Journal 4 (1965), in the form of a differential analyser. The numbers here
+-- are twice those of the text, so that one half is a whole number.
 module Pulse.DifferentialAnalyser
   ( DifferentialAnalyser,
     start,

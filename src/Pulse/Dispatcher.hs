@@ -9,15 +9,15 @@
 --
 -- /Law./ The cycles begin at exactly the ticks at which an integrator that does nothing else
 -- overflows, if k·V ≤ C for the interpolation cycle. A job never books an overflow. A cycle begins
--- with U < V, so after k − 1 of its ticks U is below k·V ≤ C: an overflow can fall on the last tick
--- of the booking only, and is served there. If k·V > C, an overflow may fall on an earlier tick,
--- and is served late. V changes only between bookings, and counts for both integrators from the
--- same tick on.
+-- with U < V, so after k − 1 of its ticks U is below k·V ≤ C: an overflow can fall on the last
+-- tick of the booking only, and is served there. If k·V > C, an overflow may fall on an earlier
+-- tick, and is served late. V changes only between bookings, and counts for both integrators from
+-- the same tick on.
 --
 -- /Waiting./ 'longestWait' is a bound for the time between request and start of a job.
 --
--- Source: N55. It prints k where k·V is meant, which is corrected here. That waiting jobs are tried
--- again at every arrival is reconstructed.
+-- Source: N55. It prints k where k·V is meant, which is corrected here. That waiting jobs are
+-- tried again at every arrival is reconstructed.
 module Pulse.Dispatcher
   ( Dispatcher (..),
     Waiting (..),
@@ -112,10 +112,10 @@ next cycleTicks d
         | cellU c + ticks w * cellV c < limit c -> Just (w, more)
         | otherwise -> (\(chosen, others) -> (chosen, w : others)) <$> fitting more
 
--- | Bound for the ticks between the request of a job and its start. The arguments are the length of
--- an interpolation cycle, the capacity, the feed V, the ticks of the job, the longest job of any
--- kind, and the lengths and least intervals of the jobs that are tried before this one. 'Nothing'
--- if the job does not fit between two overflows, or if the jobs take all the time.
+-- | Bound for the ticks between the request of a job and its start. The arguments are the length
+-- of an interpolation cycle, the capacity, the feed V, the ticks of the job, the longest job of
+-- any kind, and the lengths and least intervals of the jobs that are tried before this one.
+-- 'Nothing' if the job does not fit between two overflows, or if the jobs take all the time.
 --
 -- In a time w there are at most w·V\/C + 2 overflows. Each takes the length of a cycle, and the
 -- ticks before it are lost in which the job does not fit, fewer than its length. A job of each

@@ -9,11 +9,11 @@
 -- the axis along which the arc is steeper makes a pulse in each cycle, and the other axis may make
 -- one too. Both choose the pulses after which |F| is smaller.
 --
--- /Bounds./ 'EightDirections': on the line of the leading pulse, the choice is the whole point next
--- to the circle, so the distance from the circle is at most 1\/2. 'OneAxis': the two choices have
--- values of F that differ by 2(p + q), with p and q the distances from the axes, so |F| ≤ p + q ≤
--- √2·r, and the distance from the circle is about |F|\/(2r) or less: at most √½. Both bounds are
--- tested exactly, for all small arcs.
+-- /Bounds./ 'EightDirections': on the line of the leading pulse, the choice is the whole point
+-- next to the circle, so the distance from the circle is at most 1\/2. 'OneAxis': the two choices
+-- have values of F that differ by 2(p + q), with p and q the distances from the axes, so |F| ≤ p +
+-- q ≤ √2·r, and the distance from the circle is about |F|\/(2r) or less: at most √½. Both bounds
+-- are tested exactly, for all small arcs.
 --
 -- /End./ A whole point on the circle has F = 0. Both walks pass through every such point: the
 -- column or row of the point is reached on the circle's side of it, where only the pulse towards
@@ -46,8 +46,8 @@ data StepRule
     EightDirections
   deriving stock (Eq, Show)
 
--- | What remains the same along an arc: the rule, true for a clockwise arc, and the position of the
--- end as 'p' and 'q' of its quadrant.
+-- | What remains the same along an arc: the rule, true for a clockwise arc, and the position of
+-- the end as 'p' and 'q' of its quadrant.
 data Plan = Plan {rule :: StepRule, isMirrored :: Bool, endP :: Int, endQ :: Int, radius2 :: Int}
 
 -- | State of the walk. A clockwise arc is walked as its mirror image at the x axis. In the
@@ -204,7 +204,8 @@ leadingShare cycles w = max a b / sqrt (a * a + b * b)
     towardsIt = fromIntegral (p w)
     r2 = fromIntegral (radius2 (plan w))
     steps = fromIntegral cycles :: Double
-    -- In the first half of a quadrant q grows by a pulse in each cycle, in the second half p falls.
+    -- In the first half of a quadrant q grows by a pulse in each cycle, in the second half p
+    -- falls.
     (a, b)
       | p w > q w = let v = along + steps in (sqrt (max 0 (r2 - v * v)), v)
       | otherwise = let u = abs (towardsIt - steps) in (u, sqrt (max 0 (r2 - u * u)))

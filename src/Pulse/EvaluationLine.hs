@@ -2,14 +2,14 @@
 --
 -- Pulse k of an axis with d pulses, counted from 0, is due at the fraction (2k + 1)\/(2d) of the
 -- line, which is where the line is half a pulse away. The axis whose pulse is due first makes it.
--- Which of two axes this is, is the sign of an evaluation function: with i and j pulses made, it is
--- (2i + 1)·e − (2j + 1)·d for axes with d and e pulses. If both are due at once, the first in the
--- order x, y, z, a, b is taken.
+-- Which of two axes this is, is the sign of an evaluation function: with i and j pulses made, it
+-- is (2i + 1)·e − (2j + 1)·d for axes with d and e pulses. If both are due at once, the first in
+-- the order x, y, z, a, b is taken.
 --
--- While no pulse is due, every axis is at most half a pulse from the line, measured along the axis.
--- Pulses that are due at once are made one after the other. So the distance from the line is at
--- most half the square root of the count of axes that move: √½ in a plane, √¾ in space. The last
--- pulse of each axis is due before the end, and the end is exact. Source of the method: the
+-- While no pulse is due, every axis is at most half a pulse from the line, measured along the
+-- axis. Pulses that are due at once are made one after the other. So the distance from the line is
+-- at most half the square root of the count of axes that move: √½ in a plane, √¾ in space. The
+-- last pulse of each axis is due before the end, and the end is exact. Source of the method: the
 -- evaluation function of Soviet interpolators; this form of it is reconstructed.
 module Pulse.EvaluationLine
   ( EvaluationLine,

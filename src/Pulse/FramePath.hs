@@ -7,6 +7,7 @@ module Pulse.FramePath
     fromFrame,
     pathLength,
     leadingPulses,
+    leadingAxis,
     allPulses,
     endOf,
     askedFeed,
@@ -15,14 +16,21 @@ module Pulse.FramePath
 where
 
 import Base.PulseVector (Pulses2 (..), Pulses3 (..))
-import Base.Quantity (Mm (..), Pulses (..))
+import Base.Quantity (Mm (..), Pulses (..), degrees)
 import Control.Motion qualified as Motion
 import Data.Maybe (fromMaybe)
 import Frame.Frame (Frame (..), FrameMotion (..))
 import Geometry.Carrier (Sense (..))
-import Machine.Machine (Axis (..), FeedMeasure (..), Machine)
+import Machine.Machine
+  ( Axis (..),
+    FeedMeasure (..),
+    Machine,
+    RotaryAxis (..),
+    RotaryForm (pulseAngle),
+  )
 import Machine.Machine qualified as Machine
 import Pulse.Steps (Pulses5 (..))
+import Pulse.Steps qualified as Steps
 
 -- | Path of a frame.
 data FramePath
@@ -46,26 +54,33 @@ fromFrame f = case motion f of
   where
     Pulses3 (Pulses x) (Pulses y) (Pulses z) = increment f
     Pulses2 (Pulses i) (Pulses j) = centre f
-    straight = Line (Pulses5 x y z 0 0)
+    Pulses2 (Pulses a) (Pulses b) = turn f
+    straight = Line (Pulses5 x y z a b)
 
 -- | Length of a path: in mm along x, y and z, or in degrees if only rotary axes move. An arc is
 -- measured on the circle through its start.
 pathLength :: Machine -> FramePath -> Double
 pathLength machine path = case path of
+  Line (Pulses5 0 0 0 a b) -> norm [fromIntegral a * angle A, fromIntegral b * angle B]
   Line (Pulses5 x y z _ _) ->
-    let square n a = (fromIntegral n * pulse a) * (fromIntegral n * pulse a)
-     in sqrt (square x X + square y Y + square z Z)
+    norm [fromIntegral x * pulse X, fromIntegral y * pulse Y, fromIntegral z * pulse Z]
   Arc {clockwise, from = (a, b), to = (c, d)} ->
     let turn = atan2 (fromIntegral (a * d - b * c)) (fromIntegral (a * c + b * d)) :: Double
         signed = if clockwise then negate turn else turn
         sweep = if signed <= 0 then signed + 2 * pi else signed
      in sqrt (fromIntegral (a * a + b * b)) * sweep * pulse X
   where
+    norm ls = sqrt (sum (map (\l -> l * l) ls))
     pulse a = let Mm l = Machine.resolutionOf machine a in l
+    angle a = maybe 0 (degrees . pulseAngle) (Machine.rotaryForm machine a)
 
 -- | Pulses of the axis with most pulses, on a line.
 leadingPulses :: Pulses5 -> Int
 leadingPulses (Pulses5 x y z a b) = maximum (map abs [x, y, z, a, b])
+
+-- | Index of the axis with most pulses on a line; the first one if there are several.
+leadingAxis :: Pulses5 -> Int
+leadingAxis d = length (takeWhile ((< leadingPulses d) . abs) (Steps.toList d))
 
 -- | Pulses of all axes, on a line.
 allPulses :: Pulses5 -> Int

@@ -130,8 +130,8 @@ stoppable :: IntegratorControl -> Double -> Double
 stoppable control long = sqrt (2 * pathAcceleration control * 3600 * long)
 
 -- | Feed at the beginning of a frame that asks the feed @asked@, after a frame that ended with the
--- feed @before@: that feed, but at least one step of the acceleration, and at most @asked@. Without
--- a job for the acceleration it is @asked@.
+-- feed @before@: that feed, but at least one step of the acceleration, and at most @asked@.
+-- Without a job for the acceleration it is @asked@.
 initial :: IntegratorControl -> Double -> Double -> Double
 initial control asked before = case [t | ControlJob {request = AtAcceleration t} <- jobs control] of
   [] -> asked

@@ -350,13 +350,15 @@ moving f path s = case path of
     | otherwise -> FrameEnds t (proceed (resting t s))
   Just p
     | asked <= 0 -> Stopped t (FeedHeld (number s))
-    | asked > largest ->
+    | reachable > largest ->
       Stopped t (TooFast (number s) (asked / correction k) (largest / correction k))
     | otherwise -> proceed (onPlan id s {stage = Moving started, feed = first})
     where
-      started = Feed.plan (machine k) (control k) cyclesAhead p asked
-      largest = Feed.largestFeed (control k) p started
-      first = Feed.initial (control k) asked (feed s)
+      started = Feed.plan (machine k) (control k) cyclesAhead p reachable
+      largest = Feed.largestFeed (control k) p (Feed.plan (machine k) (control k) 0 p asked)
+      first = Feed.initial (control k) reachable (feed s)
+      -- A rapid move asks no feed of its own: it runs as fast as the control can.
+      reachable = if Frame.motion (frameRead f) == Frame.Rapid then min asked largest else asked
   where
     t = tick (dispatcher s)
     k = setup s

@@ -13,6 +13,9 @@ module Pulse.Steps
     towards,
     Pulses5 (..),
     advance,
+    countEach,
+    plus,
+    toList,
     component,
 
     -- * Interpolation cycles
@@ -70,6 +73,22 @@ data Pulses5 = Pulses5 Int Int Int Int Int
 advance :: Steps -> Pulses5 -> Pulses5
 advance s (Pulses5 x y z a b) =
   Pulses5 (x + onAxis 0 s) (y + onAxis 1 s) (z + onAxis 2 s) (a + onAxis 3 s) (b + onAxis 4 s)
+
+-- | Counts of pulses on each axis, after further pulses.
+countEach :: Steps -> Pulses5 -> Pulses5
+countEach s (Pulses5 x y z a b) =
+  Pulses5 (x + on 0) (y + on 1) (z + on 2) (a + on 3) (b + on 4)
+  where
+    on k = abs (onAxis k s)
+
+-- | Sum of two vectors.
+plus :: Pulses5 -> Pulses5 -> Pulses5
+plus (Pulses5 x y z a b) (Pulses5 x' y' z' a' b') =
+  Pulses5 (x + x') (y + y') (z + z') (a + a') (b + b')
+
+-- | Components in the order of the axes.
+toList :: Pulses5 -> [Int]
+toList (Pulses5 x y z a b) = [x, y, z, a, b]
 
 -- | Component along the axis with this index.
 component :: Int -> Pulses5 -> Int

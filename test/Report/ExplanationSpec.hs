@@ -27,7 +27,7 @@ import Test.Hspec hiding (Example)
 raisedElsewhere :: [(String, [Text])]
 raisedElsewhere =
   [ ("a program that no page holds", ["E0116"]),
-    ("a tape", ["E0601"]),
+    ("a tape", ["E0601", "E0602"]),
     ( "an input sheet",
       [ "E0901",
         "E0902",
@@ -107,6 +107,8 @@ raisedElsewhere =
         "E0810",
         "E0811",
         "E0812",
+        "E0815",
+        "E0816",
         "W0801"
       ]
     )
