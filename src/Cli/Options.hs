@@ -92,8 +92,14 @@ data RunOptions = RunOptions
   }
   deriving stock (Eq, Show)
 
--- | Form in which a run is written.
-data RunForm = RunAsTable | RunAsJson | PulseStream
+-- | Form in which a run is written. A @Maybe FilePath@ is the file of a picture; nothing means
+-- standard output.
+data RunForm
+  = RunAsTable
+  | RunAsJson
+  | PulseStream
+  | -- | picture of the feed and the frequencies of the axes over time
+    SpeedPicture (Maybe FilePath)
   deriving stock (Eq, Show)
 
 -- | The parser of the whole command line; the argument is the version of partc.
@@ -243,6 +249,11 @@ runOptions =
         <|> Opt.flag'
           PulseStream
           (Opt.long "pulses" <> Opt.help "One line for each pulse: axis, sign, tick")
+        <|> ( Opt.flag'
+                SpeedPicture
+                (Opt.long "speed" <> Opt.help "Draw feed and frequencies over time, as SVG")
+                <*> optional outputFile
+            )
         <|> pure RunAsTable
     frameOption name description =
       Opt.option Opt.auto (Opt.long name <> Opt.metavar "FRAME" <> Opt.help description)
