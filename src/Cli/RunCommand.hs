@@ -7,6 +7,7 @@ where
 
 import Base.LazyList (LazyList)
 import Base.LazyList qualified as LazyList
+import Base.Quantity (Mm)
 import Base.Region (Source)
 import Base.Region qualified as Region
 import Base.Result (Result)
@@ -32,6 +33,7 @@ import Data.ByteString.Builder (Builder)
 import Data.Maybe (fromMaybe, maybeToList)
 import Data.Text (Text)
 import Data.Text.Encoding qualified as Encoding
+import Frame.Frame (FrameProgram (plannedFrames))
 import Machine.Controller (Controller (..), IntegratorControl (override))
 import Machine.Machine (Machine, MachineName (..))
 import Machine.Machine qualified as Machine
@@ -40,8 +42,10 @@ import Project.Job (Job (verification), Verification (..))
 import Project.Job qualified as Job
 import Project.LoadedProgram qualified as LoadedProgram
 import Project.Target qualified as Target
+import Pulse.Controller (Console (..))
 import Pulse.Controller qualified as Controller
 import Pulse.ControllerRun (StopReason (..))
+import Pulse.FrameCompensation (switchRadii)
 import Pulse.RunMeasure (RunTotal (stopReason))
 import Report.Report (Report)
 import System.FilePath (takeExtension)
@@ -53,8 +57,10 @@ run :: Reporter -> RunOptions -> IO Exit
 run reporter options
   | isProgram = withInput reporter file (maybeToList target) $ \given ->
     whenSound reporter (name given) (source given) (compiled target given) $ \made ->
-      let rows = tape (Compile.punched made)
-       in runTape reporter options (name given) (source given) (Compile.machine made) rows
+      let punched = Compile.punched made
+          known = switchRadii (Compile.machine made) (plannedFrames (program punched))
+          subject = RunSubject (name given) (source given) (Compile.machine made) known
+       in runTape reporter options subject (tape punched)
   | otherwise = case target of
     Nothing -> failWith reporter tapeName (NoMachineForTape Target.builtInNames)
     Just wanted -> do
@@ -65,11 +71,12 @@ run reporter options
           readBytes file
             >>= either
               (failWith reporter tapeName)
-              (runTape reporter options tapeName (Region.fromText tapeName "") machine . Tape)
+              (runTape reporter options (fromTape machine) . Tape)
   where
     file = runInput options
     target = runTarget options
     tapeName = displayName file
+    fromTape machine = RunSubject tapeName (Region.fromText tapeName "") machine []
     isProgram = takeExtension file == ".part" || LoadedProgram.isInputSheet file
 
 -- | Compiles a program for the chosen machine, or for the machine that the program names. The tape
@@ -83,24 +90,30 @@ compiled target given = do
   where
     job = Job.forTargets (maybeToList target) (values given) (loaded given)
 
+-- | Tape that is run: its name and its text in reports, its machine, and the radius of the cutter
+-- at each switch that the program uses.
+data RunSubject = RunSubject Text Source Machine [(Int, Mm)]
+
 -- | Runs a tape and writes the chosen form. The cutter starts at 0.
-runTape :: Reporter -> RunOptions -> Text -> Source -> Machine -> Tape -> IO Exit
-runTape reporter options tapeName text machine rows = case correctionFor options machine of
+runTape :: Reporter -> RunOptions -> RunSubject -> Tape -> IO Exit
+runTape reporter options subject rows = case correctionFor options machine of
   Left e -> failWith reporter tapeName e
   Right correction -> case runForm options of
-    PulseStream -> case Controller.run machine correction 0 rows of
+    PulseStream -> case Controller.runWith machine console 0 rows of
       Nothing -> failWith reporter tapeName (NoPulses machineName)
       Just pulses -> written (RunTable.pulseLines machine isShown pulses) id (const mempty)
     RunAsTable ->
       measured RunTable.frameLines (Encoding.encodeUtf8Builder . totals RunTable.totalLines)
     RunAsJson -> measured RunTable.frameJson (totals RunTable.totalJson)
     where
+      console = Console {correction, radii = switchesAt options <> known}
       clock = fromMaybe 1 (Controller.ticksPerSecond machine)
       totals make = make machine clock
-      measured lines' after = case Controller.measured machine correction 0 rows of
+      measured lines' after = case Controller.measuredWith machine console 0 rows of
         Nothing -> failWith reporter tapeName (NoController machineName)
         Just list -> written (lines' machine clock isShown list) stopReason after
   where
+    RunSubject tapeName text machine known = subject
     MachineName machineName = Machine.name machine
     isShown n = maybe True (n >=) (fromFrame options) && maybe True (n <=) (toFrame options)
     written :: LazyList e Builder -> (e -> StopReason) -> (e -> Builder) -> IO Exit
@@ -117,6 +130,8 @@ runTape reporter options tapeName text machine rows = case correctionFor options
             TapeEnds -> pure Done
             ProgramEnds -> pure Done
             FeedHeld _ -> pure Done
+            SwitchNotSet n k -> stoppedWith (Cli.toReport (SwitchMissing n k))
+            NotCompensated n why -> stoppedWith (Cli.toReport (CompensationFails n why))
     stoppedWith report = Failed <$ Output.showReports reporter tapeName text [report]
 
 -- | Correction of the feed as a factor, from the position of the switch that the command line

@@ -23,10 +23,12 @@ import Verify.Motion (CutterMotion (number))
 -- | Radius of the cutter in mm, for each planned frame in order.
 type Tools = Vector Double
 
--- | Radius of the cutter in each planned frame.
+-- | Radius of the cutter in each planned frame. A frame of commands has the cutter of the next
+-- motion.
 plannedTools :: FrameProgram -> Tools
-plannedTools program =
-  Vector.fromList [r | p <- Frame.plannedFrames program, let Mm r = Frame.cutterRadius p]
+plannedTools program = Vector.init (Vector.scanr' (\r next -> if r == 0 then next else r) 0 radii)
+  where
+    radii = Vector.fromList [r | p <- Frame.plannedFrames program, let Mm r = Frame.cutterRadius p]
 
 -- | Radius of the cutter in the planned frame with the number @n@, counted from 1; 0 if there is no
 -- such frame.
