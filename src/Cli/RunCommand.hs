@@ -115,15 +115,15 @@ runTape reporter options subject rows = case correctionFor options machine of
   where
     RunSubject tapeName text machine known = subject
     MachineName machineName = Machine.name machine
-    isShown n = maybe True (n >=) (fromFrame options) && maybe True (n <=) (toFrame options)
+    isShown n = all (n >=) (fromFrame options) && all (n <=) (toFrame options)
     written :: LazyList e Builder -> (e -> StopReason) -> (e -> Builder) -> IO Exit
     written parts reasonOf after = do
-      done <- Output.resultStream parts
+      done <- Output.resultStream (partsToCollection (runForm options)) parts
       case done of
         Left why -> exitAfterWriting reporter "" "to standard output" (Left why)
         Right Nothing -> pure Done
         Right (Just e) -> do
-          _ <- Output.resultStream (LazyList.Next (after e) (LazyList.End ()))
+          _ <- Output.resultStream 1 (LazyList.Next (after e) (LazyList.End ()))
           case reasonOf e of
             Unreadable damage -> stoppedWith (Tape.toReport damage)
             TooFast n asked most -> stoppedWith (Cli.toReport (FeedTooHigh n asked most))
@@ -133,6 +133,14 @@ runTape reporter options subject rows = case correctionFor options machine of
             SwitchNotSet n k -> stoppedWith (Cli.toReport (SwitchMissing n k))
             NotCompensated n why -> stoppedWith (Cli.toReport (CompensationFails n why))
     stoppedWith report = Failed <$ Output.showReports reporter tapeName text [report]
+
+-- | Count of parts of the output after which garbage is collected. A part is the line of a pulse,
+-- or of a frame, which has many pulses.
+partsToCollection :: RunForm -> Int
+partsToCollection form = case form of
+  PulseStream -> 65536
+  RunAsTable -> 256
+  RunAsJson -> 256
 
 -- | Correction of the feed as a factor, from the position of the switch that the command line
 -- names.

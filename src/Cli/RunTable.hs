@@ -58,8 +58,9 @@ axisNames machine =
 
 -- Frames ------------------------------------------------------------------------------------------
 
--- | Lines of the table for all frames. The second argument is the frequency of the clock; the
--- third tells which frames are shown, by their numbers.
+-- | Lines of the table for all frames; an empty part for a frame that is not shown. The second
+-- argument is the frequency of the clock; the third tells which frames are shown, by their
+-- numbers.
 frameLines ::
   Machine -> Int -> (Int -> Bool) -> LazyList RunTotal FrameMeasure -> LazyList RunTotal Builder
 frameLines machine clock isShown measured = LazyList.Next (textLine heading) (go measured)
@@ -68,7 +69,7 @@ frameLines machine clock isShown measured = LazyList.Next (textLine heading) (go
       LazyList.End total -> LazyList.End total
       LazyList.Next m more
         | isShown (Measure.number m) -> LazyList.Next (textLine (row m)) (go more)
-        | otherwise -> go more
+        | otherwise -> LazyList.Next mempty (go more)
     axes = axisNames machine
     heading =
       cells
@@ -116,7 +117,7 @@ frameJson machine clock isShown = go
       LazyList.End total -> LazyList.End total
       LazyList.Next m more
         | isShown (Measure.number m) -> LazyList.Next (jsonLine (value m)) (go more)
-        | otherwise -> go more
+        | otherwise -> LazyList.Next mempty (go more)
     value m =
       object
         [ "frame" .= Measure.number m,
@@ -249,7 +250,7 @@ pulseLines machine isShown = go False
       Stepped t steps more
         | shown -> LazyList.Next (mconcat [line name k t steps | (k, name) <- axes]) (go shown more)
         | otherwise -> go shown more
-      FrameEnds _ more -> go shown more
+      FrameEnds _ more -> LazyList.Next mempty (go shown more)
       Commanded _ _ _ more -> go shown more
       JobDone _ more -> go shown more
       Stopped _ why -> LazyList.End why

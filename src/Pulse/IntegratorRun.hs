@@ -1,3 +1,5 @@
+{-# OPTIONS_GHC -O2 #-}
+
 -- | Run of Н55-2Л: a feed integrator, a dispatcher, a buffer for the next frame, and the frame at
 -- work.
 --
@@ -41,9 +43,14 @@ import Pulse.ControllerRun
     StopReason (..),
     Tick,
   )
-import Pulse.Dispatcher (Dispatcher (integrator, tick), Happening (..), Waiting (..))
+import Pulse.Dispatcher
+  ( Dispatcher (arrivals, integrator, tick, waiting),
+    Happening (..),
+    Waiting (..),
+  )
 import Pulse.Dispatcher qualified as Dispatcher
 import Pulse.FeedIntegrator (FeedIntegrator (..))
+import Pulse.FeedIntegrator qualified as FeedIntegrator
 import Pulse.FrameCompensation (PreparedFrame (..))
 import Pulse.FramePath (FramePath)
 import Pulse.FramePath qualified as FramePath
@@ -153,7 +160,49 @@ proceed s = case stage s of
       Just j -> proceed (transferring t j s)
       Nothing -> begin s
     _ -> happening s
-  Moving _ _ -> happening s
+  Moving p later
+    | null (waiting (dispatcher s)) -> coasting s p later
+    | otherwise -> happening s
+
+-- | Events from a state on in which no job waits: interpolation cycles up to the next arrival. It
+-- gives the same events as 'happening', without a new state for each cycle.
+coasting :: Control -> FeedPlan -> [FramePath] -> ControllerRun
+coasting s p later = go (interpolator p) (tick d) (cellU c) (cyclesDone p)
+  where
+    d = dispatcher s
+    c = integrator d
+    k = cycleTicks p
+    v = cellV c
+    arrival = case arrivals d of
+      (t, _) : _ -> t
+      [] -> maxBound
+    mostCycles = case [n | ControlJob {request = AtDirection n _} <- jobs (control (setup s))] of
+      n : _ | isJust (Interpolator.evaluationArc (interpolator p)) -> n
+      _ -> maxBound
+    go walk t u done
+      | u >= limit c = cycleAt t u
+      | arrival <= t = happening (stateAt walk t u done)
+      | t + n <= arrival = cycleAt (t + n) (u + n * v)
+      | otherwise = happening (stateAt walk t u done)
+      where
+        n = FeedIntegrator.ticksToOverflow c {cellU = u}
+        cycleAt t' u' = case Interpolator.next walk of
+          Finished -> pathEnded t' p later (after walk t' u' done)
+          Cycle steps rest
+            | Interpolator.isFinished rest ->
+              Stepped t' steps (pathEnded t' p later (after rest t' u' done))
+            | done + 1 >= mostCycles ->
+              let s' = after rest t' u' done
+               in Stepped t' steps (proceed (counted t' (planAt rest done) later s'))
+            | otherwise -> Stepped t' steps (go rest (t' + k) (u' - limit c + k * v) (done + 1))
+        -- State after an overflow and its interpolation cycle.
+        after rest t' u' = stateAt rest (t' + k) (u' - limit c + k * v)
+    planAt walk done = p {interpolator = walk, cyclesDone = done}
+    stateAt walk t u done =
+      s
+        { dispatcher = d {tick = t, integrator = c {cellU = u}},
+          stage = Moving (planAt walk done) later
+        }
 
 happening :: Control -> ControllerRun
 happening s = case Dispatcher.next (cycleOf (stage s)) (dispatcher s) of

@@ -260,8 +260,8 @@ compensation = do
       `shouldBe` SwitchNotSet 2 3
 
   it
-    "follows the equidistant with the tape of the edge, from the first element to the last (catches \
-    \a corner that is cut, a wrong side)"
+    "follows the equidistant with the tape of the edge, from the first element to the last \
+    \(catches a corner that is cut, a wrong side)"
     $ withMaxSuccess 60 $
       forAll ByControl.cases $ \(_, job) ->
         case (programFor job, programFor job {Part.controlCompensation = Nothing}) of
