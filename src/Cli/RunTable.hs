@@ -35,7 +35,12 @@ import Machine.Controller
     StepControl (stepReader),
     TapeReader (faultSignal),
   )
-import Machine.Machine (AxisForm (axis), CommandName (..), Machine, RotaryForm (rotaryAxis))
+import Machine.Machine
+  ( AxisForm (axis, reversed),
+    CommandName (..),
+    Machine,
+    RotaryForm (rotaryAxis, turnsReversed),
+  )
 import Machine.Machine qualified as Machine
 import Pulse.ControllerRun (ControllerRun (..), FrameStart (..), StopReason (..), Tick)
 import Pulse.FramePath (AskedFeed (..))
@@ -240,21 +245,25 @@ stopText machine why = case why of
 
 -- Pulses ------------------------------------------------------------------------------------------
 
--- | Pulses of the frames that are shown, one on each line: the axis, the sign, and the tick.
+-- | Pulses of the frames that are shown, one on each line: the axis, the sign, and the tick. The
+-- signs are those of the machine's axes, as on the tape.
 pulseLines :: Machine -> (Int -> Bool) -> ControllerRun -> LazyList StopReason Builder
 pulseLines machine isShown = go False
   where
-    axes = axisNames machine
+    axes = [(k, name, if isReversed k then -1 else 1) | (k, name) <- axisNames machine]
+    isReversed k =
+      or [reversed f | f <- NonEmpty.toList (Machine.axes machine), fromEnum (axis f) == k]
+        || or [turnsReversed f | f <- Machine.rotaryAxes machine, 3 + fromEnum (rotaryAxis f) == k]
     go shown run = case run of
       FrameBegins s more -> go (isShown (number s)) more
       Stepped t steps more
-        | shown -> LazyList.Next (mconcat [line name k t steps | (k, name) <- axes]) (go shown more)
+        | shown -> LazyList.Next (mconcat [line t steps axis | axis <- axes]) (go shown more)
         | otherwise -> go shown more
       FrameEnds _ more -> LazyList.Next mempty (go shown more)
       Commanded _ _ _ more -> go shown more
       JobDone _ more -> go shown more
       Stopped _ why -> LazyList.End why
-    line name k t steps = case Steps.onAxis k steps of
+    line t steps (k, name, sign) = case sign * Steps.onAxis k steps of
       0 -> mempty
       s ->
         Encoding.encodeUtf8Builder name
