@@ -11,21 +11,21 @@ import Test.Hspec
 spec :: Spec
 spec = describe "partc run" $ do
   it "prints a line for each frame, and the totals" $ do
-    (code, out, _) <- partc ["run", "examples/shaft.part", "-t", "kontur-3p"]
+    (code, out, _) <- partc ["run", shaft, "-t", "kontur-3p"]
     code `shouldBe` ExitSuccess
     length (filter ("    900 Hz" `isInfixOf`) (lines out)) `shouldBe` 4
     out `shouldSatisfy` isInfixOf "spindle 8"
     out `shouldSatisfy` isInfixOf "stops                                    at the end of the tape"
   it "shows chosen frames only" $ do
-    (_, out, _) <- partc ["run", "examples/shaft.part", "-t", "kontur-3p", "--from", "2", "--to", "3"]
+    (_, out, _) <- partc ["run", shaft, "-t", "kontur-3p", "--from", "2", "--to", "3"]
     map (take 7) (take 3 (lines out)) `shouldBe` ["  frame", "      2", "      3"]
   it "writes JSON lines, the total last" $ do
-    (code, out, _) <- partc ["run", "examples/shaft.part", "-t", "kontur-3p", "--json"]
+    (code, out, _) <- partc ["run", shaft, "-t", "kontur-3p", "--json"]
     code `shouldBe` ExitSuccess
     length (lines out) `shouldBe` 9
     last (lines out) `shouldSatisfy` isInfixOf "\"total\""
   it "writes one line for each pulse: axis, sign, tick" $ do
-    (code, out, _) <- partc ["run", "examples/shaft.part", "-t", "kontur-3p", "--pulses", "--to", "1"]
+    (code, out, _) <- partc ["run", shaft, "-t", "kontur-3p", "--pulses", "--to", "1"]
     code `shouldBe` ExitSuccess
     length (lines out) `shouldBe` 6000
     all ((== ["y", "+"]) . take 2 . words) (lines out) `shouldBe` True
@@ -55,3 +55,5 @@ spec = describe "partc run" $ do
     (code, none) `shouldBe` (ExitSuccess, ExitFailure 1)
     out `shouldSatisfy` isInfixOf "at the end of the program"
     err `shouldSatisfy` isInfixOf "E0815"
+  where
+    shaft = "examples/shaft.part"
