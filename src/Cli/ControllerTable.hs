@@ -82,6 +82,7 @@ readerRows r =
     ["start of the tape", milliseconds (startTime r)],
     ["read before the first frame begins", frames (framesAhead r)]
   ]
+    <> [["signal at a frame that cannot be read", "‘" <> t <> "’"] | Just t <- [faultSignal r]]
   where
     frames n = Decimal.whole n <> (if n == 1 then " frame" else " frames")
 

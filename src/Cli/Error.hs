@@ -51,6 +51,11 @@ data Error
   | -- | The controller stops before a frame that it cannot run: the number of the frame, its feed,
     -- and the largest feed that it can run there.
     FeedTooHigh Int Double Double
+  | -- | A frame switches cutter compensation on, but the switch for the radius is not set: the
+    -- number of the frame, and that of the switch.
+    SwitchMissing Int Int
+  | -- | The controller stops before a frame under cutter compensation: its number, and the reason.
+    CompensationFails Int Text
   | -- | No report has the code that the user asks about. The arguments: this code as the user wrote
     -- it, and similar codes that exist, for the hint.
     UnknownCode Text [Text]
@@ -148,6 +153,27 @@ toReport err = case err of
         )
     )
       { hints = ["The largest feed that it can run there is " <> Decimal.short 2 most <> "."]
+      }
+  SwitchMissing n k ->
+    ( wrong
+        "E0602"
+        InFile
+        ( "frame "
+            <> Decimal.whole n
+            <> " switches compensation on with switch "
+            <> Decimal.whole k
+            <> ", which is not set"
+        )
+    )
+      { hints = ["Set the cutter's radius in mm: --switch " <> Decimal.whole k <> "=5"]
+      }
+  CompensationFails n why ->
+    ( wrong
+        "E0602"
+        InFile
+        ("the controller stops before frame " <> Decimal.whole n <> ", which " <> why)
+    )
+      { hints = ["Set a smaller radius, or punch a tape with longer elements."]
       }
   UnknownCode code close ->
     (wrong "E0809" InFile ("no report has the code ‘" <> code <> "’"))

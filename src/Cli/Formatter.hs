@@ -21,8 +21,8 @@ import Surface.Parser qualified as Parser
 import Surface.Syntax (Program)
 
 -- | Formats one program in place, or from standard input to standard output if the file is @-@. If
--- @checkOnly@ is true, it changes nothing: it prints the program's name and fails if the program is
--- not in the canonical layout.
+-- @checkOnly@ is true, it changes nothing: it prints the program's name and fails if the program
+-- is not in the canonical layout.
 fmt :: Reporter -> Bool -> FilePath -> IO Exit
 fmt reporter checkOnly file
   | LoadedProgram.isInputSheet file = failWith reporter (Text.pack file) SheetLaidOut

@@ -146,14 +146,14 @@ table :: [Column a] -> [a] -> Text
 table columns rows =
   Table.columns (map align columns) (map title columns : map (\r -> map (`cell` r) columns) rows)
 
--- | Makes a column for rows of type @b@ from a column for rows of type @a@. @get@ takes the @a@ out
--- of a row.
+-- | Makes a column for rows of type @b@ from a column for rows of type @a@. @get@ takes the @a@
+-- out of a row.
 via :: (b -> a) -> Column a -> Column b
 via get c = c {cell = cell c . get}
 
 -- | Columns for the increments in pulses. If some frames are arcs or rapid moves, there is also a
--- column for the kind of motion. If some frames turn rotary axes, there is a column for each rotary
--- axis of the machine. If some frames are arcs, there are also columns for their centres.
+-- column for the kind of motion. If some frames turn rotary axes, there is a column for each
+-- rotary axis of the machine. If some frames are arcs, there are also columns for their centres.
 motionColumns :: Machine -> [Frame] -> [Column Frame]
 motionColumns machine fs =
   [ Column ToLeft "motion" (motionWord . motion)

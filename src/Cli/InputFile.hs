@@ -50,8 +50,8 @@ withoutSurface input = input {loaded = LoadedProgram.withoutSurface (loaded inpu
 
 -- | Loads a program, its imports and its machine descriptions, and continues with them. The
 -- descriptions are those that the program names and those in @targets@, which the command line
--- names. The command fails with a report if the program cannot be read, or if the command line sets
--- parameters of an input sheet.
+-- names. The command fails with a report if the program cannot be read, or if the command line
+-- sets parameters of an input sheet.
 withInput :: Reporter -> FilePath -> [Text] -> (Input -> IO Exit) -> IO Exit
 withInput reporter file targets continue = do
   content <- readProgram file

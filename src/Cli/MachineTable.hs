@@ -17,6 +17,7 @@ import Data.List (nub)
 import Data.List.NonEmpty qualified as NonEmpty
 import Data.Map.Strict (Map)
 import Data.Map.Strict qualified as Map
+import Data.Maybe (maybeToList)
 import Data.Text (Text)
 import Data.Text qualified as Text
 import Machine.Machine
@@ -25,8 +26,8 @@ import Machine.Machine
 machineList :: [Machine] -> Text
 machineList ms = Table.columns [ToLeft, ToLeft] [[n, title m] | m <- ms, let MachineName n = name m]
 
--- | The data of one machine: tape, code, axes, frames, feeds, braking, commands, and the provenance
--- of each value (sourced, corrected or reconstructed).
+-- | The data of one machine: tape, code, axes, frames, feeds, braking, commands, and the
+-- provenance of each value (sourced, corrected or reconstructed).
 machineDetails :: Machine -> Text
 machineDetails m =
   n
@@ -188,8 +189,8 @@ isGrid m = all fixed (NonEmpty.toList (items (layout m)))
 
 -- | The table of a frame with fixed rows, see 'isGrid'. For each row of the frame it has the row's
 -- number, counted from 1; the row's content; and the meaning of a hole in the service track. The
--- content is the quantity of which the row is one digit, or a fixed symbol, or the check digit. The
--- service track is for minus signs, bits of commands and other signals that are no digits.
+-- content is the quantity of which the row is one digit, or a fixed symbol, or the check digit.
+-- The service track is for minus signs, bits of commands and other signals that are no digits.
 gridRows :: Machine -> [[Text]]
 gridRows m =
   ["row", "digit of", "service track"] :
@@ -209,9 +210,9 @@ gridRows m =
         ]
 
 -- | The table of a frame with words. The row of a word has its address, the quantity that it
--- contains, the count of its digits, the form of its sign, and the frames in which it occurs. Other
--- rows are for fixed symbols, the check digit, and the symbols between words. The last row says how
--- the words give the motion of an axis.
+-- contains, the count of its digits, the form of its sign, and the frames in which it occurs.
+-- Other rows are for fixed symbols, the check digit, and the symbols between words. The last row
+-- says how the words give the motion of an axis.
 wordRows :: Machine -> [[Text]]
 wordRows m =
   ["address", "holds", "digits", "sign", "stands"] :
@@ -352,7 +353,8 @@ commandRows m =
           <> concat
             [ [ ("cutter left", [compensateLeft c]),
                 ("cutter right", [compensateRight c]),
-                ("cutter on the contour", [cancelCompensation c])
+                ("cutter on the contour", [cancelCompensation c]),
+                ("switch of the cutter's radius", maybeToList (radiusSwitch c))
               ]
               | Just c <- [compensation o]
             ]

@@ -36,9 +36,9 @@ import Tape.Tape qualified as Tape
 import Toolpath.Toolpath (Block (..), Move (..), Pass (..), Toolpath, heights, pace)
 import Toolpath.Toolpath qualified as Toolpath
 
--- | The tables of a part: curves, contours, pockets, holes, rest material, sums. Times are computed
--- with the feeds of the machine; without a machine, with those of the program. Without a machine
--- there is also no tape whose length could be listed.
+-- | The tables of a part: curves, contours, pockets, holes, rest material, sums. Times are
+-- computed with the feeds of the machine; without a machine, with those of the program. Without a
+-- machine there is also no tape whose length could be listed.
 nodes :: Maybe (Machine, Punched) -> Analysis -> Text
 nodes punched Analysis {part, path} =
   Text.intercalate
@@ -115,8 +115,8 @@ pocketText machine wall pass cleared =
 nameOf :: Located Milling -> Text
 nameOf job = let Name n = value (Part.contourName (Part.contour (value job))) in n
 
--- | The words for the height of a pass and for the allowance that it leaves. Each is left out if it
--- is 0.
+-- | The words for the height of a pass and for the allowance that it leaves. Each is left out if
+-- it is 0.
 passWord :: Pass -> Text
 passWord Pass {left, atHeight} =
   (if atHeight == Mm 0 then "" else " at z = " <> fixed3 atHeight)
@@ -236,9 +236,9 @@ tapeRows machine Punched {program, tape} =
 
 -- Moves -------------------------------------------------------------------------------------------
 
--- | The time of a move at the feed of the machine; without a machine, at the feed of the program. A
--- rapid move counts as 0 s if its speed is unknown. That is the case without a machine, and if the
--- control of the machine chooses the speed itself.
+-- | The time of a move at the feed of the machine; without a machine, at the feed of the program.
+-- A rapid move counts as 0 s if its speed is unknown. That is the case without a machine, and if
+-- the control of the machine chooses the speed itself.
 moveTime :: Maybe Machine -> Move -> Seconds
 moveTime machine move = maybe (Seconds 0) (travelTime (moveLength move)) (feedOf (pace move))
   where

@@ -9,6 +9,7 @@ module Cli.Options
   )
 where
 
+import Base.Quantity (Mm (..))
 import Cli.Output (ColourChoice (..), Format (..), OutputSettings (..))
 import Control.Applicative (many, optional, some, (<|>))
 import Control.Monad (void)
@@ -88,7 +89,9 @@ data RunOptions = RunOptions
     fromFrame :: Maybe Int,
     toFrame :: Maybe Int,
     -- | position of the switch that corrects the feed, in percent
-    overrideAt :: Maybe Int
+    overrideAt :: Maybe Int,
+    -- | radius of the cutter for each switch that is set
+    switchesAt :: [(Int, Mm)]
   }
   deriving stock (Eq, Show)
 
@@ -243,6 +246,14 @@ runOptions =
               <> Opt.help "The position of the switch that corrects the feed, in percent"
           )
       )
+    <*> many
+      ( Opt.option
+          switchRadius
+          ( Opt.long "switch"
+              <> Opt.metavar "N=MM"
+              <> Opt.help "The cutter's radius at the correction switch N"
+          )
+      )
   where
     form =
       Opt.flag' RunAsJson (Opt.long "json" <> Opt.help "One JSON object a line")
@@ -263,6 +274,14 @@ runOptions =
             <> Opt.help "A part program, an input sheet, or a tape; - for a tape on standard input"
             <> Opt.action "file"
         )
+
+-- | The number of a switch, and the radius in mm at it: @1=5.02@.
+switchRadius :: Opt.ReadM (Int, Mm)
+switchRadius = Opt.maybeReader $ \text -> case break (== '=') text of
+  (n, '=' : radius) -> (,) <$> readMaybe n <*> (readMaybe radius >>= positive)
+  _ -> Nothing
+  where
+    positive r = if r >= 0 && r < 1e6 then Just (Mm r) else Nothing
 
 jsonFlag :: Parser Bool
 jsonFlag = Opt.switch (Opt.long "json" <> Opt.help "One JSON object a line")
@@ -337,8 +356,8 @@ rangeOption =
         )
     <|> pure TapeRows.Everything
 
--- | Reads a range of numbers that count from 1, for example @3..8@; @3@ means @3..3@. The result is
--- the first and the last number of the range.
+-- | Reads a range of numbers that count from 1, for example @3..8@; @3@ means @3..3@. The result
+-- is the first and the last number of the range.
 fromTo :: Opt.ReadM (Int, Int)
 fromTo =
   Opt.eitherReader $ \word ->
@@ -422,8 +441,8 @@ assignment = Opt.eitherReader $ \word -> case Text.breakOn "=" (Text.pack word) 
   _ -> Left ("‘" <> word <> "’ is not NAME=VALUE")
 
 -- | Joins the settings written after the subcommand (@later@) with those written before it
--- (@earlier@). If both have a format or a choice of colour, that of @later@ is taken. All parameter
--- values are kept, the earlier ones first.
+-- (@earlier@). If both have a format or a choice of colour, that of @later@ is taken. All
+-- parameter values are kept, the earlier ones first.
 over :: Overrides -> Overrides -> Overrides
 over later earlier =
   Overrides

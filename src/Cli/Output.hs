@@ -214,10 +214,10 @@ resultBytes bytes = either judge Right <$> try (ByteString.hPut stdout bytes *> 
 -- its end. 'Left' is the reason of a failure. Nothing takes the place of the value if the reader
 -- of a pipe has closed it.
 --
--- What is written is collected as garbage from time to time. So memory stays small even if the
--- runtime of the program is set to collect rarely.
-resultStream :: LazyList e Builder -> IO (Either Text (Maybe e))
-resultStream = go (0 :: Int)
+-- After the given count of parts, garbage is collected. So memory stays small even if the runtime
+-- of the program is set to collect rarely.
+resultStream :: Int -> LazyList e Builder -> IO (Either Text (Maybe e))
+resultStream partsToCollection = go (0 :: Int)
   where
     go n list = case list of
       LazyList.End e -> either judge (const (Right (Just e))) <$> try (hFlush stdout)
@@ -229,10 +229,6 @@ resultStream = go (0 :: Int)
       | ioe_errno e == Just pipe = Right Nothing
       | otherwise = Left (ioProblem e)
     Errno pipe = ePIPE
-
--- | Count of parts after which garbage is collected.
-partsToCollection :: Int
-partsToCollection = 65536
 
 -- | The bytes of a file, or of standard input for @-@; or the reason why they cannot be read. A
 -- file of more than 'mostBytes' is refused, also one without an end, such as a device.

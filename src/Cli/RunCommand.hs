@@ -7,6 +7,7 @@ where
 
 import Base.LazyList (LazyList)
 import Base.LazyList qualified as LazyList
+import Base.Quantity (Mm)
 import Base.Region (Source)
 import Base.Region qualified as Region
 import Base.Result (Result)
@@ -38,6 +39,7 @@ import Data.Text.Encoding qualified as Encoding
 import Draw.SpeedPlot qualified as SpeedPlot
 import Draw.TimeColumn (TimeColumns)
 import Draw.TimeColumn qualified as TimeColumn
+import Frame.Frame (FrameProgram (plannedFrames))
 import Machine.Controller (Controller (..), IntegratorControl (override))
 import Machine.Machine (Machine, MachineName (..))
 import Machine.Machine qualified as Machine
@@ -46,8 +48,10 @@ import Project.Job (Job (verification), Verification (..))
 import Project.Job qualified as Job
 import Project.LoadedProgram qualified as LoadedProgram
 import Project.Target qualified as Target
+import Pulse.Controller (Console (..))
 import Pulse.Controller qualified as Controller
 import Pulse.ControllerRun (ControllerRun, StopReason (..))
+import Pulse.FrameCompensation (switchRadii)
 import Pulse.RunMeasure (RunTotal (stopReason))
 import Report.Report (Report)
 import System.FilePath (takeExtension, takeFileName)
@@ -59,15 +63,16 @@ run :: Reporter -> RunOptions -> IO Exit
 run reporter options
   | isProgram = withInput reporter file (maybeToList target) $ \given ->
     whenSound reporter (name given) (source given) (compiled target given) $ \made ->
-      let rows = tape (Compile.punched made)
+      let punched = Compile.punched made
        in runTape
             reporter
             options
-            Subject
+            RunSubject
               { tapeName = name given,
                 text = source given,
                 machine = Compile.machine made,
-                rows,
+                known = switchRadii (Compile.machine made) (plannedFrames (program punched)),
+                rows = tape punched,
                 sources = ownFiles file given
               }
   | otherwise = case target of
@@ -84,24 +89,15 @@ run reporter options
     target = runTarget options
     shown = displayName file
     onTape wanted machine bytes =
-      Subject
+      RunSubject
         { tapeName = shown,
           text = Region.fromText shown "",
           machine,
+          known = [],
           rows = Tape bytes,
           sources = [file, Text.unpack wanted]
         }
     isProgram = takeExtension file == ".part" || LoadedProgram.isInputSheet file
-
--- | Tape to run: its name and text in reports, its machine, its rows, and the files that no output
--- may replace.
-data Subject = Subject
-  { tapeName :: Text,
-    text :: Source,
-    machine :: Machine,
-    rows :: Tape,
-    sources :: [FilePath]
-  }
 
 -- | Compiles a program for the chosen machine, or for the machine that the program names. The tape
 -- is not verified.
@@ -114,93 +110,116 @@ compiled target given = do
   where
     job = Job.forTargets (maybeToList target) (values given) (loaded given)
 
+-- | Tape that is run.
+data RunSubject = RunSubject
+  { -- | name and text in reports
+    tapeName :: Text,
+    text :: Source,
+    machine :: Machine,
+    -- | radius of the cutter at each switch that the program uses
+    known :: [(Int, Mm)],
+    rows :: Tape,
+    -- | files that no output may replace
+    sources :: [FilePath]
+  }
+
 -- | Runs a tape and writes the chosen form. The cutter starts at 0.
-runTape :: Reporter -> RunOptions -> Subject -> IO Exit
+runTape :: Reporter -> RunOptions -> RunSubject -> IO Exit
 runTape reporter options subject = case correctionFor options (machine subject) of
   Left e -> failWith reporter (tapeName subject) e
-  Right correction -> case runForm options of
-    PulseStream -> withPulses reporter subject correction $ \pulses ->
-      written (RunTable.pulseLines (machine subject) isShown pulses) id (const mempty)
-    RunAsTable ->
-      let after = Encoding.encodeUtf8Builder . totals RunTable.totalLines
-       in measured correction RunTable.frameLines after
-    RunAsJson -> measured correction RunTable.frameJson (totals RunTable.totalJson)
-    SpeedPicture output -> withPulses reporter subject correction $ \pulses ->
-      speedPicture
-        reporter
-        subject
-        output
-        (SpeedPlot.columns (machine subject) clock isShown pulses)
+  Right correction ->
+    let console = Console {correction, radii = switchesAt options <> known subject}
+        withRun = withPulses reporter subject console
+     in case runForm options of
+          PulseStream ->
+            withRun $ \pulses ->
+              written (RunTable.pulseLines (machine subject) isShown pulses) id (const mempty)
+          RunAsTable ->
+            let after = Encoding.encodeUtf8Builder . totals RunTable.totalLines
+             in measured console RunTable.frameLines after
+          RunAsJson -> measured console RunTable.frameJson (totals RunTable.totalJson)
+          SpeedPicture output ->
+            withRun $ \pulses ->
+              speedPicture
+                reporter
+                subject
+                output
+                (SpeedPlot.columns (machine subject) clock isShown pulses)
   where
     clock = clockOf subject
     totals make = make (machine subject) clock
-    measured correction lines' after =
-      case Controller.measured (machine subject) correction 0 (rows subject) of
+    measured console lines' after =
+      case Controller.measuredWith (machine subject) console 0 (rows subject) of
         Nothing -> failWith reporter (tapeName subject) (NoController (machineName subject))
         Just list -> written (lines' (machine subject) clock isShown list) stopReason after
-    isShown n = maybe True (n >=) (fromFrame options) && maybe True (n <=) (toFrame options)
+    isShown n = all (n >=) (fromFrame options) && all (n <=) (toFrame options)
     written :: LazyList e Builder -> (e -> StopReason) -> (e -> Builder) -> IO Exit
     written parts reasonOf after = do
-      done <- Output.resultStream parts
+      done <- Output.resultStream (partsToCollection (runForm options)) parts
       case done of
         Left why -> exitAfterWriting reporter "" "to standard output" (Left why)
         Right Nothing -> pure Done
         Right (Just e) -> do
-          _ <- Output.resultStream (LazyList.Next (after e) (LazyList.End ()))
+          _ <- Output.resultStream 1 (LazyList.Next (after e) (LazyList.End ()))
           afterStop reporter subject (reasonOf e)
 
 -- | Frequency of the clock of a controller.
-clockOf :: Subject -> Int
+clockOf :: RunSubject -> Int
 clockOf = fromMaybe 1 . Controller.ticksPerSecond . machine
 
-machineName :: Subject -> Text
+machineName :: RunSubject -> Text
 machineName subject = let MachineName name' = Machine.name (machine subject) in name'
 
 -- | Continues with the pulses of a run. The command fails with a report if the controller makes
 -- none.
-withPulses :: Reporter -> Subject -> Double -> (ControllerRun -> IO Exit) -> IO Exit
-withPulses reporter subject correction continue =
-  case Controller.run (machine subject) correction 0 (rows subject) of
+withPulses :: Reporter -> RunSubject -> Console -> (ControllerRun -> IO Exit) -> IO Exit
+withPulses reporter subject console continue =
+  case Controller.runWith (machine subject) console 0 (rows subject) of
     Nothing -> failWith reporter (tapeName subject) (NoPulses (machineName subject))
     Just pulses -> continue pulses
 
 -- | Writes the picture of the feed and the frequencies.
-speedPicture :: Reporter -> Subject -> Maybe FilePath -> (TimeColumns, StopReason) -> IO Exit
+speedPicture :: Reporter -> RunSubject -> Maybe FilePath -> (TimeColumns, StopReason) -> IO Exit
 speedPicture reporter subject output (columns, why)
   | null (TimeColumn.frameStarts columns) =
     failWith reporter (tapeName subject) (NothingInRange "frame" (frameCount subject))
-  | otherwise = writePicture reporter subject output picture why
+  | otherwise = do
+    exit <- writeText reporter (tapeName subject) (sources subject) output picture
+    if exit == Done then afterStop reporter subject why else pure exit
   where
     picture = SpeedPlot.plot (machine subject) axes (clockOf subject) (shortName subject) columns
     axes = RunTable.axisNames (machine subject)
 
--- | Writes a picture, and reports why the run has stopped before the end of the tape, if it has.
-writePicture :: Reporter -> Subject -> Maybe FilePath -> Text -> StopReason -> IO Exit
-writePicture reporter subject output picture why = do
-  exit <- writeText reporter (tapeName subject) (sources subject) output picture
-  if exit == Done then afterStop reporter subject why else pure exit
-
 -- | Name of the tape or program without its folder.
-shortName :: Subject -> Text
+shortName :: RunSubject -> Text
 shortName = Text.pack . takeFileName . Text.unpack . tapeName
 
--- | Count of the frames that run.
-frameCount :: Subject -> Int
-frameCount subject =
-  maybe 0 (length . LazyList.toList) (Controller.measured (machine subject) 1 0 (rows subject))
+-- | Count of the frames on the tape that can be read.
+frameCount :: RunSubject -> Int
+frameCount subject = length (LazyList.toList (Tape.readInTurn (machine subject) 0 (rows subject)))
 
--- | Exit status after a run that stops for a reason, which is reported if it is a fault of the
--- tape.
-afterStop :: Reporter -> Subject -> StopReason -> IO Exit
+-- | Exit status after a run that stops for a reason, which is reported if it is a fault.
+afterStop :: Reporter -> RunSubject -> StopReason -> IO Exit
 afterStop reporter subject why = case why of
   Unreadable damage -> stoppedWith (Tape.toReport damage)
   TooFast n asked most -> stoppedWith (Cli.toReport (FeedTooHigh n asked most))
   TapeEnds -> pure Done
   ProgramEnds -> pure Done
   FeedHeld _ -> pure Done
+  SwitchNotSet n k -> stoppedWith (Cli.toReport (SwitchMissing n k))
+  NotCompensated n reason -> stoppedWith (Cli.toReport (CompensationFails n reason))
   where
     stoppedWith report =
       Failed <$ Output.showReports reporter (tapeName subject) (text subject) [report]
+
+-- | Count of parts of the output after which garbage is collected. A part is the line of a pulse,
+-- or of a frame, which has many pulses.
+partsToCollection :: RunForm -> Int
+partsToCollection form = case form of
+  PulseStream -> 65536
+  RunAsTable -> 256
+  RunAsJson -> 256
+  SpeedPicture _ -> 256
 
 -- | Correction of the feed as a factor, from the position of the switch that the command line
 -- names.

@@ -29,7 +29,18 @@ import Data.Text (Text)
 import Data.Text qualified as Text
 import Data.Text.Encoding qualified as Encoding
 import Machine.Axis (axisName, rotaryName)
-import Machine.Machine (AxisForm (axis), CommandName (..), Machine, RotaryForm (rotaryAxis))
+import Machine.Controller
+  ( Controller (..),
+    IntegratorControl (reader),
+    StepControl (stepReader),
+    TapeReader (faultSignal),
+  )
+import Machine.Machine
+  ( AxisForm (axis, reversed),
+    CommandName (..),
+    Machine,
+    RotaryForm (rotaryAxis, turnsReversed),
+  )
 import Machine.Machine qualified as Machine
 import Pulse.ControllerRun (ControllerRun (..), FrameStart (..), StopReason (..), Tick)
 import Pulse.FramePath (AskedFeed (..))
@@ -52,8 +63,9 @@ axisNames machine =
 
 -- Frames ------------------------------------------------------------------------------------------
 
--- | Lines of the table for all frames. The second argument is the frequency of the clock; the
--- third tells which frames are shown, by their numbers.
+-- | Lines of the table for all frames; an empty part for a frame that is not shown. The second
+-- argument is the frequency of the clock; the third tells which frames are shown, by their
+-- numbers.
 frameLines ::
   Machine -> Int -> (Int -> Bool) -> LazyList RunTotal FrameMeasure -> LazyList RunTotal Builder
 frameLines machine clock isShown measured = LazyList.Next (textLine heading) (go measured)
@@ -62,7 +74,7 @@ frameLines machine clock isShown measured = LazyList.Next (textLine heading) (go
       LazyList.End total -> LazyList.End total
       LazyList.Next m more
         | isShown (Measure.number m) -> LazyList.Next (textLine (row m)) (go more)
-        | otherwise -> go more
+        | otherwise -> LazyList.Next mempty (go more)
     axes = axisNames machine
     heading =
       cells
@@ -110,7 +122,7 @@ frameJson machine clock isShown = go
       LazyList.End total -> LazyList.End total
       LazyList.Next m more
         | isShown (Measure.number m) -> LazyList.Next (jsonLine (value m)) (go more)
-        | otherwise -> go more
+        | otherwise -> LazyList.Next mempty (go more)
     value m =
       object
         [ "frame" .= Measure.number m,
@@ -217,27 +229,41 @@ stopText machine why = case why of
     | null (Machine.finish (Machine.commandWords machine)) -> "at the end of the tape"
     | otherwise -> "at the end of the tape, without the end of the program"
   ProgramEnds -> "at the end of the program"
-  Unreadable _ -> "before a frame that cannot be read"
+  Unreadable _ ->
+    "before a frame that cannot be read"
+      <> maybe "" (\t -> "; the control lights ‘" <> t <> "’") (signal (Machine.controller machine))
   TooFast n _ _ -> "before frame " <> Decimal.whole n <> ", whose feed is too high"
   FeedHeld n -> "before frame " <> Decimal.whole n <> ", because the feed is held"
+  SwitchNotSet n k ->
+    "before frame " <> Decimal.whole n <> ", because switch " <> Decimal.whole k <> " is not set"
+  NotCompensated n fault -> "before frame " <> Decimal.whole n <> ", which " <> fault
+  where
+    signal control = case control of
+      Just (Stepping c) -> stepReader c >>= faultSignal
+      Just (Integrating c) -> faultSignal (reader c)
+      _ -> Nothing
 
 -- Pulses ------------------------------------------------------------------------------------------
 
--- | Pulses of the frames that are shown, one on each line: the axis, the sign, and the tick.
+-- | Pulses of the frames that are shown, one on each line: the axis, the sign, and the tick. The
+-- signs are those of the machine's axes, as on the tape.
 pulseLines :: Machine -> (Int -> Bool) -> ControllerRun -> LazyList StopReason Builder
 pulseLines machine isShown = go False
   where
-    axes = axisNames machine
+    axes = [(k, name, if isReversed k then -1 else 1) | (k, name) <- axisNames machine]
+    isReversed k =
+      or [reversed f | f <- NonEmpty.toList (Machine.axes machine), fromEnum (axis f) == k]
+        || or [turnsReversed f | f <- Machine.rotaryAxes machine, 3 + fromEnum (rotaryAxis f) == k]
     go shown run = case run of
       FrameBegins s more -> go (isShown (number s)) more
       Stepped t steps more
-        | shown -> LazyList.Next (mconcat [line name k t steps | (k, name) <- axes]) (go shown more)
+        | shown -> LazyList.Next (mconcat [line t steps axis | axis <- axes]) (go shown more)
         | otherwise -> go shown more
-      FrameEnds _ more -> go shown more
+      FrameEnds _ more -> LazyList.Next mempty (go shown more)
       Commanded _ _ _ more -> go shown more
       JobDone _ more -> go shown more
       Stopped _ why -> LazyList.End why
-    line name k t steps = case Steps.onAxis k steps of
+    line t steps (k, name, sign) = case sign * Steps.onAxis k steps of
       0 -> mempty
       s ->
         Encoding.encodeUtf8Builder name

@@ -141,7 +141,8 @@ verify reporter file target tapeFile =
     tapeName given = maybe (name given) displayName tapeFile
 
 -- | Reads the frames from a tape, compares them with the part and prints the proof. @tapeName@ is
--- the tape's name in reports; @compiled@ has the toolpath and the frames that the tape should have.
+-- the tape's name in reports; @compiled@ has the toolpath and the frames that the tape should
+-- have.
 verifyTape :: Reporter -> Input -> Text -> Compiled -> Tape -> IO Exit
 verifyTape reporter given tapeName compiled rows =
   case Tape.readExpected machine (Frame.start (program punched)) (framesOf punched) rows of
@@ -258,9 +259,9 @@ decode reporter target tapeFile =
   withTape reporter target tapeFile $ \machine read' ->
     printResult reporter (FrameTable.decoded machine read')
 
--- | Prints a picture of those rows of a tape that are in @range@: their holes and their meaning. If
--- the tape is a text without holes, prints its lines. The rows are made again from the frames that
--- were read. A range outside of the tape is an error.
+-- | Prints a picture of those rows of a tape that are in @range@: their holes and their meaning.
+-- If the tape is a text without holes, prints its lines. The rows are made again from the frames
+-- that were read. A range outside of the tape is an error.
 drawTape :: Reporter -> Maybe Text -> TapeRows.RowRange -> FilePath -> IO Exit
 drawTape reporter target range tapeFile = withTape reporter target tapeFile $ \machine read' -> do
   let rows = Tape.rows machine 0 read'

@@ -14,8 +14,8 @@ import Text.DocLayout (realLength)
 data Align = ToLeft | ToRight
 
 -- | Lays out rows of cells in columns with two spaces between them. A column is as wide as its
--- widest cell. Widths are those on a terminal, which shows some characters in double width and some
--- in none.
+-- widest cell. Widths are those on a terminal, which shows some characters in double width and
+-- some in none.
 columns :: [Align] -> [[Text]] -> Text
 columns aligns rows =
   Text.unlines (map (Text.stripEnd . Text.intercalate "  " . zipWith3 pad aligns widths) rows)

@@ -15,6 +15,7 @@ import Data.IntMap.Strict qualified as IntMap
 import Data.List (nubBy)
 import Data.Text (Text)
 import Frame.Frame (FrameProgram (..), PlannedFrame (..))
+import Frame.Frame qualified as Frame
 import Machine.Machine (Machine)
 import Report.Report (Report (label, message), ReportCode, ReportPlace (..), report)
 import Report.Report qualified as Report
@@ -36,7 +37,9 @@ reports machine program =
   where
     frames = map frame (plannedFrames program)
     planned = IntMap.fromDistinctAscList (zip [1 ..] (plannedFrames program))
-    radiusAt n = maybe (Mm 0) cutterRadius (IntMap.lookup n planned)
+    -- A frame of commands has the cutter of the next motion.
+    radiusAt n = maybe (Mm 0) (cutterRadius . snd) (IntMap.lookupGE n moving)
+    moving = IntMap.filter (Frame.isMoving . frame) planned
 
 -- | Report that a control refuses a planned frame.
 refused :: ReportCode -> PlannedFrame -> CompensationError -> Report

@@ -132,7 +132,8 @@ speedWarnings region c CommandWord {value} = case (value, spindleSpeed c) of
     whole asked = fromIntegral (round asked :: Int)
     differs asked obtained = abs (obtained - asked) > speedSlack * asked
 
--- | Share of the requested spindle speed by which the machine's speed may differ without a warning.
+-- | Share of the requested spindle speed by which the machine's speed may differ without a
+-- warning.
 speedSlack :: Double
 speedSlack = 0.1
 
@@ -146,18 +147,19 @@ nearestStep table asked = case Map.toList table of
 -- Cutter compensation -----------------------------------------------------------------------------
 
 -- | Words that switch cutter compensation on, for a cutter with the radius @radius@ in mm on one
--- side of the contour. @asked@ is the region of the program that asks for compensation. If the word
--- takes the cutter's diameter, its number is the diameter in units of the word's last decimal. On a
--- machine with a mirrored plane left and right are exchanged.
+-- side of the contour. @asked@ is the region of the program that asks for compensation. If the
+-- word takes the cutter's diameter, its number is the diameter in units of the word's last
+-- decimal. On a machine with a mirrored plane left and right are exchanged.
 compensationOn :: Machine -> Region -> Side -> Mm -> Translation
 compensationOn machine asked side radius@(Mm r) =
   case Machine.compensation (Machine.commandWords machine) of
     Nothing -> Translation [] [] [NoCompensation asked]
     Just c -> case numberOf (if isLeft then compensateLeft c else compensateRight c) of
-      Just n -> Translation [n] [] []
+      Just n -> Translation (n : switches c) [] []
       Nothing -> Translation [] [] [DiameterOutOfRange asked (times 2 radius)]
   where
     isLeft = (side == LeftOf) /= Machine.isMirrored machine
+    switches c = [(commandName w, n) | Just w <- [radiusSwitch c], Fixed n <- [value w]]
     numberOf CommandWord {commandName, value} = case value of
       Fixed n -> Just (commandName, n)
       Diameter
@@ -193,6 +195,7 @@ data Pending = Pending {asked :: Region, given :: [(CommandName, Int)]}
 
 -- | Adds the words of a command to the pending ones; @region@ asks for the command. No word may
 -- occur twice in a frame. Therefore a command that repeats a word is divided into several groups.
+-- Commands of cutter compensation may need a frame of their own.
 -- The result has the groups of words that need frames of their own now, and the group that remains
 -- pending.
 add ::
@@ -203,6 +206,9 @@ add ::
   ([Pending], Maybe Pending)
 add machine region commandWords pending = case (withoutRepetition commandWords, pending) of
   ([], _) -> ([], pending)
+  (groups, before)
+    | any ((`elem` lonely machine) . fst) commandWords ->
+      (maybe [] pure before <> map group groups, Nothing)
   ([only], Just before)
     | not (any ((`elem` map fst (given before)) . fst) only) ->
       ([], Just before {given = inOrder machine (given before <> only)})
@@ -215,6 +221,16 @@ add machine region commandWords pending = case (withoutRepetition commandWords, 
       o : more -> case withoutRepetition more of
         ws : others | fst o `notElem` map fst ws -> (o : ws) : others
         others -> [o] : others
+
+-- | Commands that have a frame of their own: those of cutter compensation, if the operator sets
+-- the cutter's radius at a switch.
+lonely :: Machine -> [CommandName]
+lonely machine =
+  [ commandName w
+    | Just c@CompensationCommands {radiusSwitch = Just _} <-
+        [Machine.compensation (Machine.commandWords machine)],
+      w <- [compensateLeft c, compensateRight c, cancelCompensation c]
+  ]
 
 -- | Words in the order in which the machine's frame has them. The frame holds the number of a
 -- command in a word for this command, or in bits in the service track of other words. The service

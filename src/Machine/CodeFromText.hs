@@ -119,8 +119,8 @@ repetitions title given =
   where
     earlierOnes = scanl (\m (c, r) -> Map.insertWith (\_ old -> old) c r m) Map.empty given
 
--- | Reads a pattern of holes, the highest track first, as a number whose bit k−1 is track k. Tracks
--- that the pattern leaves out have no hole.
+-- | Reads a pattern of holes, the highest track first, as a number whose bit k−1 is track k.
+-- Tracks that the pattern leaves out have no hole.
 holesOf :: Width -> Located Text -> Result w Error Word8
 holesOf width (Located r digits)
   | Text.any (`notElem` ("01" :: String)) digits || size > most width || size < least width =

@@ -1,5 +1,5 @@
--- | Reads the section @commands@ of a description: the numbers that frames contain for each command
--- of a part program.
+-- | Reads the section @commands@ of a description: the numbers that frames contain for each
+-- command of a part program.
 --
 -- An event is what makes the compiler write a command: the spindle starts, the coolant goes off,
 -- the program ends. Each event has a key in the section, such as @coolant-on@. A command word is
@@ -20,6 +20,7 @@ import Base.Result qualified as Result
 import Data.List.NonEmpty (NonEmpty)
 import Data.List.NonEmpty qualified as NonEmpty
 import Data.Map.Strict qualified as Map
+import Data.Maybe (maybeToList)
 import Data.Text (Text)
 import Machine.Error (CommandFault (..), Error (..))
 import Machine.FeedFromText qualified as FeedFromText
@@ -39,8 +40,8 @@ import Machine.Machine qualified as Machine
 import Machine.Section
 import Machine.Syntax
 
--- | The command words of all events. 'eventWords' lists the same command words for the checks, each
--- with its region and the key of its event.
+-- | The command words of all events. 'eventWords' lists the same command words for the checks,
+-- each with its region and the key of its event.
 data CommandContext = CommandContext
   { allWords :: CommandWords,
     eventWords :: [(Text, Located CommandWord)]
@@ -63,7 +64,8 @@ data Events = Events
 data CompensationEvents = CompensationEvents
   { left :: Located CommandWord,
     right :: Located CommandWord,
-    off :: Located CommandWord
+    off :: Located CommandWord,
+    switch :: Maybe (Located CommandWord)
   }
 
 -- | Keys of all events but @compensation@ and @finish@, whose blocks have blocks of their own.
@@ -107,14 +109,23 @@ commandWords events = case map (map value) (simple events) of
       }
   _ -> Crash.bug "the events of a machine are as many as their keys"
   where
-    unlocated c = CompensationCommands (value (left c)) (value (right c)) (value (off c))
+    unlocated c =
+      CompensationCommands
+        { compensateLeft = value (left c),
+          compensateRight = value (right c),
+          cancelCompensation = value (off c),
+          radiusSwitch = value <$> switch c
+        }
 
 -- | The command words of all events, each with the key of its event.
 withEvents :: Events -> [(Text, Located CommandWord)]
 withEvents events =
   concat
     [ [(word, w) | (word, ws) <- zip simpleEvents (simple events), w <- ws],
-      [("compensation", w) | Just c <- [compensations events], w <- [left c, right c, off c]],
+      [ ("compensation", w)
+        | Just c <- [compensations events],
+          w <- [left c, right c, off c] <> maybeToList (switch c)
+      ],
       [("finish", w) | ws <- endFrames events, w <- NonEmpty.toList ws]
     ]
 
@@ -177,7 +188,8 @@ compensationFrom s = do
     <$> side "left" section
       <*> side "right" section
       <*> side "off" section
-      <* allowKeys ["left", "right", "off"] [] section
+      <*> optional "switch" Nothing (fmap Just . one "switch") section
+      <* allowKeys ["left", "right", "off", "switch"] [] section
   where
     example = "compensation { left { … } right { … } off { … } }"
     side word = required word (word <> " { set D diameter }") (one word)

@@ -1,5 +1,5 @@
--- | The numbers that frames contain for each command of a part program. Such a number has a word of
--- its own, or bits: holes in the service track beside the digits of other words.
+-- | The numbers that frames contain for each command of a part program. Such a number has a word
+-- of its own, or bits: holes in the service track beside the digits of other words.
 module Machine.Commands
   ( CommandWords (..),
     CommandWord (..),
@@ -54,7 +54,10 @@ data CommandValue
 data CompensationCommands = CompensationCommands
   { compensateLeft :: CommandWord,
     compensateRight :: CommandWord,
-    cancelCompensation :: CommandWord
+    cancelCompensation :: CommandWord,
+    -- | number of the switch at which the operator sets the cutter's radius. The words of
+    -- compensation then have a frame of their own. Nothing if the operator sets no radius
+    radiusSwitch :: Maybe CommandWord
   }
   deriving stock (Eq, Show)
 

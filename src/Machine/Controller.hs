@@ -66,7 +66,9 @@ data TapeReader = TapeReader
     -- | time from the start of the tape to the reading of its next row
     startTime :: Seconds,
     -- | count of frames that are read before the first one begins
-    framesAhead :: Int
+    framesAhead :: Int,
+    -- | signal of the control if it cannot read a frame
+    faultSignal :: Maybe Text
   }
   deriving stock (Eq, Show)
 
@@ -145,8 +147,8 @@ data CornerPolicy
 jobFor :: (JobRequest -> Bool) -> IntegratorControl -> Maybe ControlJob
 jobFor wanted control = find (wanted . request) (jobs control)
 
--- | Whole number of ticks that is nearest to a time, at least 1, for a clock of the given frequency
--- in ticks per second.
+-- | Whole number of ticks that is nearest to a time, at least 1, for a clock of the given
+-- frequency in ticks per second.
 ticksIn :: Int -> Seconds -> Int
 ticksIn frequency (Seconds t) = max 1 (round (t * fromIntegral frequency))
 

@@ -16,6 +16,7 @@ import Data.Text (Text)
 import Machine.Controller
 import Machine.ControllerError (ControllerFault (..))
 import Machine.Error (Error (..))
+import Machine.FrameFromText (quotedText)
 import Machine.Machine
   ( Arcs (..),
     Axis (..),
@@ -62,7 +63,7 @@ stepControl method section =
     <*> optional "ramp" Nothing (fmap Just . rampFrom) section
     <*> required "reader" "reader 300 rows/s" (optionalReader section) section
     <* allowKeys
-      ["interpolator", "clock", "ramp", "reader", "start-time", "frames-ahead"]
+      ["interpolator", "clock", "ramp", "reader", "start-time", "frames-ahead", "fault-signal"]
       []
       section
   where
@@ -95,7 +96,7 @@ integratorControl section =
         "capacity",
         "reader",
         "start-time",
-        "frames-ahead",
+        "fault-signal",
         "acceleration",
         "override",
         "cycle-line",
@@ -123,6 +124,7 @@ readerFrom section s =
     <$> withArguments ["reader 300 rows/s", "reader none"] speed s
     <*> optional "start-time" (Seconds 0) startFrom section
     <*> optional "frames-ahead" 1 (countWith "frames-ahead" 1 2 "") section
+    <*> optional "fault-signal" Nothing (fmap Just . quotedText) section
   where
     speed args = case args of
       [a, b] -> quantityIn "the speed of the reader" "rows/s" 100000 a b

@@ -32,8 +32,9 @@ import Machine.Section
 import Machine.Syntax
 
 -- | Reads the lines of a table of codes with their values, which are feeds or spindle speeds.
--- Examples of lines are @1 = 15@ and @0..40 = 10 * 10^(n/20)@. Each line gives the values of a code
--- or of a range of codes, as a formula in the code @n@. A value must be above 0 and below 10^9.
+-- Examples of lines are @1 = 15@ and @0..40 = 10 * 10^(n/20)@. Each line gives the values of a
+-- code or of a range of codes, as a formula in the code @n@. A value must be above 0 and below
+-- 10^9.
 table :: DescriptionSection -> Result w Error (Map Int Double)
 table section = do
   given <- concat . catMaybes <$> traverse (attempt . tableLine) (entries section)
@@ -146,8 +147,8 @@ braking s = do
       _ -> Nothing
 
 -- | Checks that the code of rapid moves is a feed code, that the feed word can hold the largest
--- code, and that the machine has the feed at the end of braking. @wordCapacity@ is the largest code
--- that the feed word can hold; 'Nothing' if frames have no feed word.
+-- code, and that the machine has the feed at the end of braking. @wordCapacity@ is the largest
+-- code that the feed word can hold; 'Nothing' if frames have no feed word.
 checkFeeds :: Located Feeds -> Located Braking -> Maybe Int -> [Error]
 checkFeeds (Located feedsRegion f) (Located brakingRegion b) wordCapacity =
   rapidFaults <> capacityFaults <> brakingFaults

@@ -57,8 +57,8 @@ data Rule
     Nearest
   deriving stock (Eq, Show)
 
--- | Feed code of rapid moves. If the machine has a motion code for rapid moves, their frames do not
--- contain this feed code. It then serves only to find their speed, which is its value.
+-- | Feed code of rapid moves. If the machine has a motion code for rapid moves, their frames do
+-- not contain this feed code. It then serves only to find their speed, which is its value.
 data RapidCode
   = -- | the code of the highest value
     Highest
@@ -92,8 +92,8 @@ data BrakingForm
   | -- | Where the part program asks for braking, the tape has frames at the lowest feed.
     SlowFrames
   | -- | The control slows down in frames that the program marks with a
-    -- 'Machine.FrameLayout.BrakingHole': the last frames before a lower feed, before the end of the
-    -- program, and before the end of an element with braking. At the end of the program or of such
-    -- an element, the control slows down to the feed in this field.
+    -- 'Machine.FrameLayout.BrakingHole': the last frames before a lower feed, before the end of
+    -- the program, and before the end of an element with braking. At the end of the program or of
+    -- such an element, the control slows down to the feed in this field.
     BrakedFrames Feed
   deriving stock (Eq, Show)

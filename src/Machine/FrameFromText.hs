@@ -196,8 +196,8 @@ digitsFrom = withArguments ["digits 4", "digits at-most 4"] digitCount
       [a] -> fmap (True,) <$> wholeIn "the number of digits" 0 mostDigits a
       _ -> Nothing
 
--- | Reads the count of decimals, which may be 0 to @most@. @most@ is the count of all digits of the
--- number.
+-- | Reads the count of decimals, which may be 0 to @most@. @most@ is the count of all digits of
+-- the number.
 decimalsFrom :: Int -> Statement -> Result w Error Int
 decimalsFrom most = withArguments ["decimals 3"] one
   where

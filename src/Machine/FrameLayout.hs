@@ -114,9 +114,9 @@ data Sign
     EitherSign
   | -- | One of four digits before the number. The digit gives the sign of the number, and tells the
     -- leading axis, which is the one with most pulses in the frame, from the others. The arguments
-    -- are the digits for: leading and positive, leading and negative, not leading and positive, not
-    -- leading and negative. If several axes have most pulses, the first one in the layout leads.
-    -- The word of a centre always has a digit of the leading axis.
+    -- are the digits for: leading and positive, leading and negative, not leading and positive,
+    -- not leading and negative. If several axes have most pulses, the first one in the layout
+    -- leads. The word of a centre always has a digit of the leading axis.
     Priority Int Int Int Int
   deriving stock (Eq, Show)
 

@@ -40,8 +40,8 @@ import Machine.Syntax (Argument_ (..), Statement (..), keyWord)
 import Machine.UniqueDecoding qualified as UniqueDecoding
 import Prelude hiding (read)
 
--- | Reads the machine that a text describes. The regions of errors count the characters of the text
--- from 0.
+-- | Reads the machine that a text describes. The regions of errors count the characters of the
+-- text from 0.
 read :: Text -> Result w Error Machine
 read text
   | closed parsed = Result.failing (mistakes parsed) () *> machineFrom text (statements parsed)

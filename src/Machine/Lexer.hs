@@ -77,8 +77,8 @@ tokensFrom formula at rest = case Text.uncons rest of
        in Located (Region at (at + size)) t :
           tokensFrom (formula || t == Sign "=") (at + size) (Text.drop size rest)
 
--- | Reads the first token of @rest@, and gives its length in characters. @formula@ is true within a
--- formula; @c@ is the first character of @rest@.
+-- | Reads the first token of @rest@, and gives its length in characters. @formula@ is true within
+-- a formula; @c@ is the first character of @rest@.
 token :: Bool -> Char -> Text -> (Token_, Int)
 token formula c rest
   | Just unit <- find (`Text.isPrefixOf` rest) ["mm/min", "mm/s2", "rows/s"] =
@@ -90,8 +90,8 @@ token formula c rest
   | c `elem` ("{}=:+-*/^()" :: String) = (Sign (Text.singleton c), 1)
   | otherwise = (Stray c, 1)
 
--- | Reads the word at the start of a text: letters, digits and underscores, with single minus signs
--- and points between them. In a formula a word has no minus signs and points.
+-- | Reads the word at the start of a text: letters, digits and underscores, with single minus
+-- signs and points between them. In a formula a word has no minus signs and points.
 word :: Bool -> Text -> Text
 word formula rest = case Text.uncons rest' of
   Just (c, more)

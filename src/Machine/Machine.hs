@@ -1,9 +1,9 @@
 -- | A controller and its tape, as data. Machines are described in text files. No module depends on
 -- the name of a machine, except @Sheet.ToSurface@: input sheets are compiled for one of them.
 --
--- A tape is a sequence of rows; a 'TapeCode' gives the symbol of each row. A frame is a sequence of
--- symbols; a 'Layout' divides it into words, literal symbols and a check digit. Machines differ in
--- these data only: one has fixed fields on a tape of five tracks, another one words in ASCII.
+-- A tape is a sequence of rows; a 'TapeCode' gives the symbol of each row. A frame is a sequence
+-- of symbols; a 'Layout' divides it into words, literal symbols and a check digit. Machines differ
+-- in these data only: one has fixed fields on a tape of five tracks, another one words in ASCII.
 --
 -- This module defines the record 'Machine' and the queries over it. The types of its parts are
 -- defined in the modules that it re-exports.
@@ -200,8 +200,8 @@ axisForm machine a = among a (NonEmpty.toList (axes machine))
 rotaryForm :: Machine -> RotaryAxis -> Maybe RotaryForm
 rotaryForm machine a = rotaryAmong a (rotaryAxes machine)
 
--- | Resolution in the plane of x and y: the larger of the two resolutions, in mm for one pulse. For
--- a machine with neither of these axes it is the resolution of z.
+-- | Resolution in the plane of x and y: the larger of the two resolutions, in mm for one pulse.
+-- For a machine with neither of these axes it is the resolution of z.
 planeResolution :: Machine -> Mm
 planeResolution machine = if inPlane > Mm 0 then inPlane else largestStep (const True)
   where
@@ -209,8 +209,8 @@ planeResolution machine = if inPlane > Mm 0 then inPlane else largestStep (const
     largestStep chosen =
       foldl' max (Mm 0) [resolution f | f <- NonEmpty.toList (axes machine), chosen (axis f)]
 
--- | Resolution of the axis @a@, in mm for one pulse; 'planeResolution' for an axis that the machine
--- lacks.
+-- | Resolution of the axis @a@, in mm for one pulse; 'planeResolution' for an axis that the
+-- machine lacks.
 resolutionOf :: Machine -> Axis -> Mm
 resolutionOf machine a = case axes machine of
   first :| others
@@ -268,8 +268,8 @@ centreCapacity machine = if least == maxBound then 0 else Pulses least
     least = foldl' min maxBound capacities
     capacities = [capacityOf (form w) | w <- wordsOf machine, Centre _ <- [content w]]
 
--- | Largest number that a frame can give with a command; 'Nothing' if the layout has neither a word
--- nor bits for the command.
+-- | Largest number that a frame can give with a command; 'Nothing' if the layout has neither a
+-- word nor bits for the command.
 commandCapacity :: Machine -> CommandName -> Maybe Int
 commandCapacity machine command =
   case ([form w | w <- wordsOf machine, Command c <- [content w], c == command], bits) of
@@ -339,8 +339,8 @@ choose machine wanted
       [] -> (FeedCode 0, 0)
       e : es -> foldl (\best x -> if key x < key best then x else best) e es
 
--- | Largest difference from the feed @v@ at which another feed counts as equal: 1e-9 of @v@, but at
--- least 1e-9. Both are in the unit of the machine's 'FeedMeasure'.
+-- | Largest difference from the feed @v@ at which another feed counts as equal: 1e-9 of @v@, but
+-- at least 1e-9. Both are in the unit of the machine's 'FeedMeasure'.
 feedTolerance :: Double -> Double
 feedTolerance v = 1e-9 * max 1 (abs v)
 
@@ -360,8 +360,8 @@ feedRange machine = case codes (feeds machine) of
     [] -> (0, 0)
     vs -> (minimum vs, maximum vs)
 
--- | Feed code of rapid moves. If the machine has a motion code for rapid moves, their frames do not
--- contain this feed code. It then serves only to find their speed, which is its value.
+-- | Feed code of rapid moves. If the machine has a motion code for rapid moves, their frames do
+-- not contain this feed code. It then serves only to find their speed, which is its value.
 rapidCode :: Machine -> FeedCode
 rapidCode machine = case rapidFeed (feeds machine) of
   ByCode c -> c

@@ -4,8 +4,8 @@
 -- and perhaps a block of statements in braces. A mark is the word @sourced@, @corrected@ or
 -- @reconstructed@, which says how a value is known.
 --
--- The parser recovers at the end of each line: it reports a line that it cannot read, and continues
--- with the next one.
+-- The parser recovers at the end of each line: it reports a line that it cannot read, and
+-- continues with the next one.
 module Machine.Parser
   ( Parsed (..),
     parse,
@@ -49,8 +49,8 @@ topLevel ts = case statementsOf 0 ts of
      in (ss <> more, es <> [Unopened region] <> es')
   (ss, es, _) -> (ss, es)
 
--- | Parses statements up to the end or up to a closing brace, which it does not consume. @depth@ is
--- the number of blocks around the statements. The result has the remaining tokens.
+-- | Parses statements up to the end or up to a closing brace, which it does not consume. @depth@
+-- is the number of blocks around the statements. The result has the remaining tokens.
 statementsOf :: Int -> [Token] -> ([Statement], [Error], [Token])
 statementsOf depth ts = case dropWhile ((== LineEnd) . value) ts of
   [] -> ([], [], [])
@@ -145,8 +145,8 @@ argument ts = case ts of
         then Just (Text.foldl' (\n d -> 10 * n + digitToInt d) 0 s)
         else Nothing
 
--- | Parses @=@ and the formula after it; without @=@ there is no formula. The region of the formula
--- includes the @=@.
+-- | Parses @=@ and the formula after it; without @=@ there is no formula. The region of the
+-- formula includes the @=@.
 formulaOf :: [Token] -> (Maybe (Located Formula), [Error], [Token])
 formulaOf ts = case ts of
   Located r (Sign "=") : rest -> case sums rest of

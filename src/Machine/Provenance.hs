@@ -37,8 +37,8 @@ describedValues text ofMachine = concatMap (valuesIn [] (provenanceOf =<< ofMach
 provenanceOf :: Located Mark -> Maybe Provenance
 provenanceOf (Located _ (Mark p _)) = Just p
 
--- | Reports the first line without provenance in each section, with the count of further such lines
--- in the section. No report is made if @ofMachine@, the mark of the machine, is given.
+-- | Reports the first line without provenance in each section, with the count of further such
+-- lines in the section. No report is made if @ofMachine@, the mark of the machine, is given.
 unmarked :: Maybe (Located Mark) -> [Statement] -> [Error]
 unmarked ofMachine sections = case ofMachine of
   Just _ -> []
@@ -49,8 +49,8 @@ unmarked ofMachine sections = case ofMachine of
       | isJust (mark s) || broken s = []
       | otherwise = [extent s | isDescriptive s] <> concatMap unmarkedLines (inner s)
 
--- | True if the line itself describes a value. Every line without a block does. A line with a block
--- does so in three cases only:
+-- | True if the line itself describes a value. Every line without a block does. A line with a
+-- block does so in three cases only:
 --
 -- * its key is @word@: its position among the lines gives the position of the word in the frame;
 -- * its key is @set@: it gives the number of a command;

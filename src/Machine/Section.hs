@@ -1,6 +1,6 @@
 -- | Access to the statements of a section by their keys, and to the arguments of a statement. A
--- statement is one line of a description, together with the block in braces that may follow it. The
--- key is the word, number or text with which the line begins.
+-- statement is one line of a description, together with the block in braces that may follow it.
+-- The key is the word, number or text with which the line begins.
 --
 -- A function that reads arguments returns 'Nothing' if they do not have the form that it accepts.
 -- It returns a failed result if they have that form but contain a mistake.
@@ -52,8 +52,8 @@ data DescriptionSection = DescriptionSection
 
 -- Keys --------------------------------------------------------------------------------------------
 
--- | Reports every key of the section that is in neither @once@ nor @often@, and every repetition of
--- a key in @once@. The keys in @often@ may be repeated.
+-- | Reports every key of the section that is in neither @once@ nor @often@, and every repetition
+-- of a key in @once@. The keys in @often@ may be repeated.
 allowKeys :: [Text] -> [Text] -> DescriptionSection -> Result w Error ()
 allowKeys once often section = Result.failing (concat (zipWith fault [0 ..] (entries section))) ()
   where

@@ -35,8 +35,8 @@ data Medium = Medium
   }
   deriving stock (Eq, Show)
 
--- | Rule by which a tape reader treats the blank rows of a tape. 'Medium' gives their number in the
--- leader, between frames and in the trailer.
+-- | Rule by which a tape reader treats the blank rows of a tape. 'Medium' gives their number in
+-- the leader, between frames and in the trailer.
 data Spare
   = -- | The reader counts the blank rows, and skips no rows. The blank rows must be exactly as many
     -- as 'Medium' gives.
@@ -50,8 +50,8 @@ data Spare
 -- | Tape code: the row of holes for each symbol.
 data TapeCode = TapeCode
   { codeName :: Text,
-    -- | holes of each symbol, without the hole in the parity track. The holes of a digit, a sign or
-    -- a point contain none in the service track. No two symbols have the same holes.
+    -- | holes of each symbol, without the hole in the parity track. The holes of a digit, a sign
+    -- or a point contain none in the service track. No two symbols have the same holes.
     symbols :: Map Char Word8,
     -- | contribution of a symbol to the check sum of a frame; 0 for symbols that are not listed
     weights :: Map Char Int,

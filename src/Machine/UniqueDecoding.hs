@@ -113,8 +113,9 @@ addressFaults (r, i) = case i of
 beginsLikeNumber :: Text -> Bool
 beginsLikeNumber t = Text.any (\c -> isDigit c || c `elem` ("+-." :: String)) (Text.take 1 t)
 
--- | Reports each item that the reader could confuse with an earlier one, because their addresses or
--- literal symbols are equal or begin in the same way. There is at most one report for each item.
+-- | Reports each item that the reader could confuse with an earlier one, because their addresses
+-- or literal symbols are equal or begin in the same way. There is at most one report for each
+-- item.
 prefixFaults :: [LocatedItem] -> [Error]
 prefixFaults items' =
   concat
@@ -139,8 +140,8 @@ pairFaults (r, a) (r', b) = case (a, b) of
   (Literal t, AWord v) | isOptional b -> commonPrefix r r' (address v) t
   _ -> []
 
--- | Reports the address @ofWord@ of an optional word and the symbols @ofLiteral@ if one is a prefix
--- of the other.
+-- | Reports the address @ofWord@ of an optional word and the symbols @ofLiteral@ if one is a
+-- prefix of the other.
 commonPrefix :: Region -> Region -> Text -> Text -> [Error]
 commonPrefix literalRegion wordRegion ofWord ofLiteral
   | Text.null ofWord || Text.null ofLiteral = []
@@ -150,10 +151,10 @@ commonPrefix literalRegion wordRegion ofWord ofLiteral
     [NotDecodable wordRegion (Prefix ofLiteral ofWord literalRegion)]
   | otherwise = []
 
--- | True if the reader could take the longer address of another word for the word @w@. That address
--- consists of the address of @w@ and the text @rest@. For a motion code, the result is True
--- if one of its codes is a prefix of @rest@, or @rest@ a prefix of one of its codes. For any other
--- word it is True if @rest@ begins like a number, or if @w@ has no number.
+-- | True if the reader could take the longer address of another word for the word @w@. That
+-- address consists of the address of @w@ and the text @rest@. For a motion code, the result is
+-- True if one of its codes is a prefix of @rest@, or @rest@ a prefix of one of its codes. For any
+-- other word it is True if @rest@ begins like a number, or if @w@ has no number.
 numberMayBegin :: Word' -> Text -> Bool
 numberMayBegin w rest = case content w of
   Motion m -> any (\t -> rest `Text.isPrefixOf` t || t `Text.isPrefixOf` rest) (numbersOf m)
@@ -179,8 +180,8 @@ data Successor = Successor
     successor :: LocatedItem
   }
 
--- | Lists each item with its successors, in the order of the layout. If all items after an item are
--- optional, its successors include items of the next frame.
+-- | Lists each item with its successors, in the order of the layout. If all items after an item
+-- are optional, its successors include items of the next frame.
 successors :: [LocatedItem] -> [Successors]
 successors items' =
   [ Successors {item = i, next = upToFixed (restOfFrame k <> nextFrame)}
@@ -193,8 +194,8 @@ successors items' =
       i : rest | isOptional (snd (successor i)) -> i : upToFixed rest
       _ -> take 1 is
 
--- | True if the item is a word whose number has no fixed length. False for a word without a number,
--- which has 0 digits.
+-- | True if the item is a word whose number has no fixed length. False for a word without a
+-- number, which has 0 digits.
 hasOpenEnd :: LayoutItem -> Bool
 hasOpenEnd i = case i of
   AWord w -> not (padded (form w)) && digits (form w) > 0

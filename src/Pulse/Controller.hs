@@ -3,14 +3,18 @@
 -- A controller is driven by the tape and the machine description alone. It does not know the part
 -- program, the toolpath or the planned frames.
 module Pulse.Controller
-  ( run,
+  ( Console (..),
+    run,
+    runWith,
     measured,
+    measuredWith,
     ticksPerSecond,
   )
 where
 
 import Base.LazyList (LazyList)
 import Base.PulseVector (Pulses3)
+import Base.Quantity (Mm)
 import Data.List.NonEmpty qualified as NonEmpty
 import Machine.Controller (Controller (..), IntegratorControl (..), StepControl (..))
 import Machine.Machine
@@ -22,6 +26,7 @@ import Machine.Machine
   )
 import Machine.Machine qualified as Machine
 import Pulse.ControllerRun (ControllerRun)
+import Pulse.FrameCompensation (prepared)
 import Pulse.IntegratorRun qualified as IntegratorRun
 import Pulse.PathPlanner qualified as PathPlanner
 import Pulse.RunMeasure (FrameMeasure, RunTotal)
@@ -33,10 +38,19 @@ import Tape.Tape (Tape)
 -- | Run of a tape. The arguments are the correction of the feed as a factor, and the position of
 -- the cutter before the tape, in pulses. 'Nothing' if the model of the controller makes no pulses.
 run :: Machine -> Double -> Pulses3 -> Tape -> Maybe ControllerRun
-run machine correction start tape = case Machine.controller machine of
+run machine correction = runWith machine Console {correction, radii = []}
+
+-- | Settings at the console of a control: the correction of the feed as a factor, and the radius
+-- of the cutter at each switch that is set.
+data Console = Console {correction :: Double, radii :: [(Int, Mm)]}
+
+-- | Run of a tape with settings at the console.
+runWith :: Machine -> Console -> Pulses3 -> Tape -> Maybe ControllerRun
+runWith machine Console {correction, radii} start tape = case Machine.controller machine of
   Nothing -> Nothing
   Just (Stepping c) -> Just (StepRun.run machine c correction final frames)
-  Just (Integrating c) -> Just (IntegratorRun.run machine c correction final frames)
+  Just (Integrating c) ->
+    Just (IntegratorRun.run machine c correction final (prepared machine radii start frames))
   Just (Planning _) -> Nothing
   where
     final = lastCommands machine
@@ -45,7 +59,12 @@ run machine correction start tape = case Machine.controller machine of
 -- | Measures of the frames of a tape. The arguments are those of 'run'. 'Nothing' if the
 -- description of the machine has no controller.
 measured :: Machine -> Double -> Pulses3 -> Tape -> Maybe (LazyList RunTotal FrameMeasure)
-measured machine correction start tape = case Machine.controller machine of
+measured machine correction = measuredWith machine Console {correction, radii = []}
+
+-- | Measures of the frames of a tape that is run with settings at the console.
+measuredWith ::
+  Machine -> Console -> Pulses3 -> Tape -> Maybe (LazyList RunTotal FrameMeasure)
+measuredWith machine console start tape = case Machine.controller machine of
   Nothing -> Nothing
   Just (Planning c) ->
     Just (PathPlanner.measure machine c (lastCommands machine) frames)
@@ -53,7 +72,7 @@ measured machine correction start tape = case Machine.controller machine of
   Just (Integrating c) -> RunMeasure.measure machine (clock c) <$> pulses
   where
     frames = Punch.readInTurn machine start tape
-    pulses = run machine correction start tape
+    pulses = runWith machine console start tape
 
 -- | Frequency of the clock whose ticks 'measured' counts; 'Nothing' if the description of the
 -- machine has no controller.

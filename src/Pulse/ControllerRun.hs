@@ -13,6 +13,7 @@ module Pulse.ControllerRun
   )
 where
 
+import Data.Text (Text)
 import Frame.Frame (Frame)
 import Machine.Controller (ControlJob)
 import Machine.FrameLayout (CommandName)
@@ -67,6 +68,12 @@ data StopReason
     TooFast Int Double Double
   | -- | The switch that corrects the feed is at 0: the number of the frame.
     FeedHeld Int
+  | -- | A frame switches cutter compensation on, but the switch for the cutter's radius is not set:
+    -- the number of the frame, and that of the switch.
+    SwitchNotSet Int Int
+  | -- | A frame and its neighbour do not fit under cutter compensation: the number of the frame,
+    -- and the reason, which completes a sentence that begins with the frame.
+    NotCompensated Int Text
   deriving stock (Eq, Show)
 
 -- | Strict left fold over the events of a run. The function also gets the last event.

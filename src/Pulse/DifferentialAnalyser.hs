@@ -1,3 +1,5 @@
+{-# OPTIONS_GHC -O2 #-}
+
 -- | Digital differential analyser for straight lines.
 --
 -- In each cycle the leading axis, which is the axis with most pulses, makes one pulse. Every other

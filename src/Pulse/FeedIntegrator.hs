@@ -1,3 +1,5 @@
+{-# OPTIONS_GHC -O2 #-}
+
 -- | Feed integrator: it makes the ticks at which interpolation cycles begin.
 --
 -- In each tick the cell U grows by the cell V. If U reaches the capacity C, it overflows: it loses

@@ -1,3 +1,5 @@
+{-# OPTIONS_GHC -O2 #-}
+
 -- | Run of Н55-2Л: a feed integrator, a dispatcher, a buffer for the next frame, and the frame at
 -- work.
 --
@@ -23,6 +25,7 @@ import Base.LazyList qualified as LazyList
 import Base.Quantity (Seconds (..))
 import Data.List (foldl')
 import Data.Maybe (isJust)
+import Frame.Frame (Frame)
 import Frame.Frame qualified as Frame
 import Machine.Controller
   ( ControlJob (..),
@@ -40,16 +43,21 @@ import Pulse.ControllerRun
     StopReason (..),
     Tick,
   )
-import Pulse.Dispatcher (Dispatcher (integrator, tick), Happening (..), Waiting (..))
+import Pulse.Dispatcher
+  ( Dispatcher (arrivals, integrator, tick, waiting),
+    Happening (..),
+    Waiting (..),
+  )
 import Pulse.Dispatcher qualified as Dispatcher
 import Pulse.FeedIntegrator (FeedIntegrator (..))
+import Pulse.FeedIntegrator qualified as FeedIntegrator
+import Pulse.FrameCompensation (PreparedFrame (..))
 import Pulse.FramePath (FramePath)
 import Pulse.FramePath qualified as FramePath
 import Pulse.IntegratorFeed (FeedPlan (..))
 import Pulse.IntegratorFeed qualified as Feed
 import Pulse.Interpolator qualified as Interpolator
 import Pulse.Steps (Cycle (..))
-import Tape.Damage (Damage)
 import Tape.Punch (TapeFrame (..))
 
 -- | State of the control.
@@ -60,10 +68,12 @@ data Control = Control
     stage :: Stage,
     -- | number of the frame at work, or of the last one; 0 before the first
     number :: Int,
+    -- | frame at work, or the last one
+    working :: Frame,
     -- | feed at this moment
     feed :: Double,
     -- | frames that are still on the tape
-    onTape :: LazyList (Maybe Damage) TapeFrame
+    onTape :: LazyList StopReason PreparedFrame
   }
 
 -- | Constants of a run: the machine, its control, the correction of the feed as a factor, and the
@@ -80,17 +90,18 @@ data Stage
   = -- | No frame is at work. The tick is the end of the last one; the flag is true if the transfer
     -- of the next frame is requested.
     Resting Tick Bool
-  | Moving FeedPlan
+  | -- | The list has the paths that follow in the same frame.
+    Moving FeedPlan [FramePath]
 
 -- | Buffer for the next frame.
 data Buffer
   = -- | The frame is read: the rows that have not arrived, each with a flag for the last row of a
     -- word; the count of jobs that are still to be done for rows that have arrived.
-    Filling TapeFrame Reading Int
+    Filling PreparedFrame Reading Int
   | -- | The frame is read, since this tick.
-    Filled TapeFrame Tick
-  | -- | The tape has no further frame.
-    Exhausted (Maybe Damage)
+    Filled PreparedFrame Tick
+  | -- | The control runs no further frame.
+    Exhausted StopReason
 
 -- | Rows of a frame that have not arrived: the tick at which the reading began, the index of the
 -- next row from 1, and for each row, true for the last row of a word.
@@ -113,7 +124,7 @@ run ::
   IntegratorControl ->
   Double ->
   [(CommandName, Int)] ->
-  LazyList (Maybe Damage) TapeFrame ->
+  LazyList StopReason PreparedFrame ->
   ControllerRun
 run machine control correction lastCommands frames =
   proceed
@@ -122,9 +133,10 @@ run machine control correction lastCommands frames =
         Control
           { setup = Setup {machine, control, correction, lastCommands},
             dispatcher = foldl' armed unarmed (jobs control),
-            buffer = Exhausted Nothing,
+            buffer = Exhausted TapeEnds,
             stage = Resting 0 False,
             number = 0,
+            working = Frame.commandFrame [],
             feed = 0,
             onTape = frames
           }
@@ -143,12 +155,54 @@ ticksOf control = Controller.ticksIn (clock control)
 proceed :: Control -> ControllerRun
 proceed s = case stage s of
   Resting t isRequested -> case buffer s of
-    Exhausted damage -> Stopped t (maybe TapeEnds Unreadable damage)
+    Exhausted why -> Stopped t why
     Filled _ _ | not isRequested -> case jobWith AtTransfer s of
       Just j -> proceed (transferring t j s)
       Nothing -> begin s
     _ -> happening s
-  Moving _ -> happening s
+  Moving p later
+    | null (waiting (dispatcher s)) -> coasting s p later
+    | otherwise -> happening s
+
+-- | Events from a state on in which no job waits: interpolation cycles up to the next arrival. It
+-- gives the same events as 'happening', without a new state for each cycle.
+coasting :: Control -> FeedPlan -> [FramePath] -> ControllerRun
+coasting s p later = go (interpolator p) (tick d) (cellU c) (cyclesDone p)
+  where
+    d = dispatcher s
+    c = integrator d
+    k = cycleTicks p
+    v = cellV c
+    arrival = case arrivals d of
+      (t, _) : _ -> t
+      [] -> maxBound
+    mostCycles = case [n | ControlJob {request = AtDirection n _} <- jobs (control (setup s))] of
+      n : _ | isJust (Interpolator.evaluationArc (interpolator p)) -> n
+      _ -> maxBound
+    go walk t u done
+      | u >= limit c = cycleAt t u
+      | arrival <= t = happening (stateAt walk t u done)
+      | t + n <= arrival = cycleAt (t + n) (u + n * v)
+      | otherwise = happening (stateAt walk t u done)
+      where
+        n = FeedIntegrator.ticksToOverflow c {cellU = u}
+        cycleAt t' u' = case Interpolator.next walk of
+          Finished -> pathEnded t' p later (after walk t' u' done)
+          Cycle steps rest
+            | Interpolator.isFinished rest ->
+              Stepped t' steps (pathEnded t' p later (after rest t' u' done))
+            | done + 1 >= mostCycles ->
+              let s' = after rest t' u' done
+               in Stepped t' steps (proceed (counted t' (planAt rest done) later s'))
+            | otherwise -> Stepped t' steps (go rest (t' + k) (u' - limit c + k * v) (done + 1))
+        -- State after an overflow and its interpolation cycle.
+        after rest t' u' = stateAt rest (t' + k) (u' - limit c + k * v)
+    planAt walk done = p {interpolator = walk, cyclesDone = done}
+    stateAt walk t u done =
+      s
+        { dispatcher = d {tick = t, integrator = c {cellU = u}},
+          stage = Moving (planAt walk done) later
+        }
 
 happening :: Control -> ControllerRun
 happening s = case Dispatcher.next (cycleOf (stage s)) (dispatcher s) of
@@ -164,16 +218,17 @@ happening s = case Dispatcher.next (cycleOf (stage s)) (dispatcher s) of
     jobOf (Work j _) = j
     cycleOf st = case st of
       Resting _ _ -> 0
-      Moving p -> cycleTicks p
+      Moving p _ -> cycleTicks p
 
 -- Reading -----------------------------------------------------------------------------------------
 
 -- | Begins to read the next frame of the tape into the buffer at tick @t@.
 reading :: Tick -> Control -> Control
 reading t s = case onTape s of
-  LazyList.End damage -> s {buffer = Exhausted damage}
+  LazyList.End why -> s {buffer = Exhausted why}
   LazyList.Next f more ->
-    let flags = replicate (rowsRead f - length (wordEnds f)) False <> wordEnds f
+    let ends = wordEnds (tapeFrame f)
+        flags = replicate (rowsRead (tapeFrame f) - length ends) False <> ends
      in awaitRow s {buffer = Filling f (Reading t 1 flags) 0, onTape = more}
 
 -- | Lets the next row of the frame in the buffer arrive at its tick.
@@ -199,11 +254,19 @@ arrived t a s = case a of
           Just _ -> s'
   Row -> case buffer s of
     Filling f (Reading since k (isWordEnd : flags)) pending ->
-      let s' = awaitRow s {buffer = Filling f (Reading since (k + 1) flags) pending}
+      let rows = Reading since (k + 1) flags
+          s' = withEquidistant t f flags (awaitRow s {buffer = Filling f rows pending})
        in case jobWith AtCharacter s of
             Just j -> requestJob t j isWordEnd (pendingBy 1 s')
             Nothing -> characterRead t isWordEnd s'
     _ -> s
+
+-- | State after the last row of a frame under compensation: a job computes the projections of the
+-- offset. @flags@ are those of the rows that have not arrived.
+withEquidistant :: Tick -> PreparedFrame -> [Bool] -> Control -> Control
+withEquidistant t f flags s = case (flags, jobWith AtCompensation s) of
+  ([], Just j) | isCompensated f -> requestJob t j False (pendingBy 1 s)
+  _ -> s
 
 intervalOf :: IntegratorControl -> ControlJob -> Tick
 intervalOf control j = case request j of
@@ -258,7 +321,7 @@ worked (Work j flag) s = case request j of
   AtCharacter -> proceed (characterRead t flag (pendingBy (-1) s))
   AtNumber -> proceed (filledIfRead t (pendingBy (-1) s))
   AtTransfer -> begin s
-  AtCompensation -> proceed s
+  AtCompensation -> proceed (filledIfRead t (pendingBy (-1) s))
   AtDirection _ ahead -> proceed (onPlan (Feed.turnedTo ahead) s)
   AtAcceleration time -> proceed (accelerate time s)
   Periodic _ -> proceed s
@@ -270,11 +333,11 @@ worked (Work j flag) s = case request j of
 onPlan :: (FeedPlan -> FeedPlan) -> Control -> Control
 onPlan change s = case stage s of
   Resting _ _ -> s
-  Moving p ->
+  Moving p later ->
     let p' = change p
         v = Feed.cell (control (setup s)) p' (feed s)
      in s
-          { stage = Moving p',
+          { stage = Moving p' later,
             dispatcher = Dispatcher.withFeed v (dispatcher s)
           }
 
@@ -282,25 +345,31 @@ onPlan change s = case stage s of
 accelerate :: Seconds -> Control -> Control
 accelerate time s = case stage s of
   Resting _ _ -> s
-  Moving p -> onPlan id s {feed = Feed.accelerated (control (setup s)) time p (endFeed s) (feed s)}
+  Moving p _ ->
+    let v = Feed.accelerated (control (setup s)) time p (endFeed s) (feed s)
+     in onPlan id s {feed = v}
 
--- | Feed at the end of the frame at work: one that the next frame asks at most, and from which it
+-- | Feed at the end of the path at work: one that the next path asks at most, and from which it
 -- can still stop. 0 if the next frame is not read, or does not move.
 endFeed :: Control -> Double
-endFeed s = case buffer s of
-  Filled f _
-    | Just path <- FramePath.fromFrame (frameRead f) ->
-      min
-        (askedFeed (setup s) f)
-        (Feed.stoppable (control (setup s)) (FramePath.pathLength (machine (setup s)) path))
+endFeed s = case (stage s, buffer s) of
+  (Moving p (path : _), _) -> safe (target p) path
+  (_, Filled f _) | path : _ <- paths f -> safe (askedFeed (setup s) f) path
   _ -> 0
+  where
+    safe v path =
+      min v (Feed.stoppable (control (setup s)) (FramePath.pathLength (machine (setup s)) path))
 
 -- | Corrected feed that a frame asks.
-askedFeed :: Setup -> TapeFrame -> Double
+askedFeed :: Setup -> PreparedFrame -> Double
 askedFeed k f =
-  correction k * case FramePath.askedFeed (machine k) (frameRead f) of
+  correction k * case FramePath.askedFeed (machine k) (rowFrame f) of
     FramePath.Along v -> v
     FramePath.OfLeadingAxis v -> v
+
+-- | Frame as it is on the tape.
+rowFrame :: PreparedFrame -> Frame
+rowFrame = frameRead . tapeFrame
 
 -- Frames ------------------------------------------------------------------------------------------
 
@@ -319,16 +388,25 @@ filledAt s = case buffer s of
 begin :: Control -> ControllerRun
 begin s = case (buffer s, stage s) of
   (Filled f since, Resting ended _) ->
-    let path = FramePath.fromFrame (frameRead f)
-        given = Frame.commands (frameRead f)
+    let given = Frame.commands (rowFrame f)
         n = number s + 1
-        s' = reading t (afterCommands t given s {number = n})
-     in FrameBegins
-          (FrameStart t n (frameRead f) path (max 0 (since - ended)))
-          (foldr (uncurry (Commanded t)) (moving f path s') given)
+        s' = reading t (afterCommands t given s {number = n, working = rowFrame f})
+        waited = max 0 (since - ended)
+        started path = FrameBegins (FrameStart t n (rowFrame f) path waited)
+        withCommands run' = foldr (uncurry (Commanded t)) run' given
+     in case paths f of
+          [] -> started Nothing (withCommands (resting' f s'))
+          path : later ->
+            let motion = moving (askedFeed (setup s) f) path later s'
+             in started (Just path) (withCommands motion)
   _ -> proceed s
   where
     t = tick (dispatcher s)
+    -- A frame without motion ends at once, and may end the program.
+    resting' f s'
+      | not (null final) && all (`elem` Frame.commands (rowFrame f)) final = Stopped t ProgramEnds
+      | otherwise = FrameEnds t (proceed (resting t s'))
+    final = lastCommands (setup s)
 
 -- | Lets the jobs arrive that follow the given commands of tick @t@.
 afterCommands :: Tick -> [(CommandName, Int)] -> Control -> Control
@@ -341,29 +419,35 @@ afterCommands t given s = s {dispatcher = foldl' armed (dispatcher s) (jobs cont
           Dispatcher.arrive (t + ticksOf control' time) (Due j (Just n)) d
       _ -> d
 
--- | Events of the motion of a frame that begins now.
-moving :: TapeFrame -> Maybe FramePath -> Control -> ControllerRun
-moving f path s = case path of
-  Nothing
-    | not (null (lastCommands k)) && all (`elem` Frame.commands (frameRead f)) (lastCommands k) ->
-      Stopped t ProgramEnds
-    | otherwise -> FrameEnds t (proceed (resting t s))
-  Just p
-    | asked <= 0 -> Stopped t (FeedHeld (number s))
-    | reachable > largest ->
-      Stopped t (TooFast (number s) (asked / correction k) (largest / correction k))
-    | otherwise -> proceed (onPlan id s {stage = Moving started, feed = first})
-    where
-      started = Feed.plan (machine k) (control k) cyclesAhead p reachable
-      largest = Feed.largestFeed (control k) p (Feed.plan (machine k) (control k) 0 p asked)
-      first = Feed.initial (control k) reachable (feed s)
-      -- A rapid move asks no feed of its own: it runs as fast as the control can.
-      reachable = if Frame.motion (frameRead f) == Frame.Rapid then min asked largest else asked
+-- | Events of the motion on a path that begins now, with the corrected feed @asked@. @later@ are
+-- the paths that follow in the same frame.
+moving :: Double -> FramePath -> [FramePath] -> Control -> ControllerRun
+moving asked path later s
+  | asked <= 0 = Stopped t (FeedHeld (number s))
+  | reachable > largest =
+    Stopped t (TooFast (number s) (asked / correction k) (largest / correction k))
+  | otherwise = proceed (onPlan id s {stage = Moving started later, feed = first})
   where
     t = tick (dispatcher s)
     k = setup s
-    asked = askedFeed k f
+    started = Feed.plan (machine k) (control k) cyclesAhead path reachable
+    largest = Feed.largestFeed (control k) path (Feed.plan (machine k) (control k) 0 path asked)
+    first = Feed.initial (control k) reachable (feed s)
+    -- A rapid move asks no feed of its own: it runs as fast as the control can.
+    reachable = if Frame.motion (working s) == Frame.Rapid then min asked largest else asked
     cyclesAhead = sum [ahead | ControlJob {request = AtDirection _ ahead} <- jobs (control k)]
+
+-- | Events from the end of a path on, at tick @t@: the next path of the frame, or the next frame.
+pathEnded :: Tick -> FeedPlan -> [FramePath] -> Control -> ControllerRun
+pathEnded t p later s = case later of
+  [] -> FrameEnds t (proceed (resting t s))
+  path : others ->
+    FrameEnds
+      t
+      ( FrameBegins
+          (FrameStart t (number s) (working s) (Just path) 0)
+          (moving (target p) path others s)
+      )
 
 -- | State at the end of a frame, at tick @t@. If the next frame is read, and its transfer ends
 -- before the next overflow, the integrator runs on.
@@ -385,18 +469,18 @@ resting t s
 interpolate :: Tick -> Control -> ControllerRun
 interpolate t s = case stage s of
   Resting _ _ -> proceed s
-  Moving p -> case Interpolator.next (interpolator p) of
-    Finished -> FrameEnds t (proceed (resting t s))
+  Moving p later -> case Interpolator.next (interpolator p) of
+    Finished -> pathEnded t p later s
     Cycle steps rest
-      | Interpolator.isFinished rest -> Stepped t steps (FrameEnds t (proceed (resting t s)))
-      | otherwise -> Stepped t steps (proceed (counted t p {interpolator = rest} s))
+      | Interpolator.isFinished rest -> Stepped t steps (pathEnded t p later s)
+      | otherwise -> Stepped t steps (proceed (counted t p {interpolator = rest} later s))
 
 -- | State after a cycle: on an arc, the job for its direction is requested after its count of
 -- cycles.
-counted :: Tick -> FeedPlan -> Control -> Control
-counted t p s = case Interpolator.evaluationArc (interpolator p) of
-  Nothing -> s {stage = Moving p}
+counted :: Tick -> FeedPlan -> [FramePath] -> Control -> Control
+counted t p later s = case Interpolator.evaluationArc (interpolator p) of
+  Nothing -> s {stage = Moving p later}
   Just _ -> case [(j, n) | j@ControlJob {request = AtDirection n _} <- jobs (control (setup s))] of
     (j, n) : _
-      | cyclesDone p + 1 >= n -> requestJob t j False s {stage = Moving p {cyclesDone = 0}}
-    _ -> s {stage = Moving p {cyclesDone = cyclesDone p + 1}}
+      | cyclesDone p + 1 >= n -> requestJob t j False s {stage = Moving p {cyclesDone = 0} later}
+    _ -> s {stage = Moving p {cyclesDone = cyclesDone p + 1} later}

@@ -1,3 +1,5 @@
+{-# OPTIONS_GHC -O2 #-}
+
 -- | Interpolator: it makes the pulses of one frame, cycle by cycle.
 --
 -- A line or an arc is the same whatever the times of its pulses are. This module joins the

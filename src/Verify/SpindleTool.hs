@@ -23,10 +23,16 @@ import Verify.Motion (CutterMotion (number))
 -- | Radius of the cutter in mm, for each planned frame in order.
 type Tools = Vector Double
 
--- | Radius of the cutter in each planned frame.
+-- | Radius of the cutter in each planned frame. A frame of commands has the cutter of the next
+-- motion.
 plannedTools :: FrameProgram -> Tools
-plannedTools program =
-  Vector.fromList [r | p <- Frame.plannedFrames program, let Mm r = Frame.cutterRadius p]
+plannedTools program = Vector.init (Vector.scanr' (\r next -> if r < 0 then next else r) 0 radii)
+  where
+    -- A negative number takes the place of the radius in a frame without motion.
+    radii = Vector.fromList (map radiusIn (Frame.plannedFrames program))
+    radiusIn p
+      | Frame.isMoving (Frame.frame p) = let Mm r = Frame.cutterRadius p in r
+      | otherwise = -1
 
 -- | Radius of the cutter in the planned frame with the number @n@, counted from 1; 0 if there is no
 -- such frame.

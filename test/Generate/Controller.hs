@@ -43,7 +43,7 @@ integrating m =
   IntegratorControl
     <$> choose (1000, 2000000)
     <*> choose (8, 40)
-    <*> tapeReader
+    <*> ((\r -> r {framesAhead = 1}) <$> tapeReader)
     <*> tenths
     <*> (NonEmpty.toList . NonEmpty.fromList <$> listOf1 (choose (0, 200)))
     <*> choose (1, 20)
@@ -68,7 +68,12 @@ integrating m =
            ]
 
 tapeReader :: Gen TapeReader
-tapeReader = TapeReader <$> tenths <*> oneof [pure (Seconds 0), milliseconds] <*> choose (1, 2)
+tapeReader =
+  TapeReader
+    <$> tenths
+    <*> oneof [pure (Seconds 0), milliseconds]
+    <*> choose (1, 2)
+    <*> elements [Nothing, Just "ошибка считывания"]
 
 -- | A positive number with one decimal.
 tenths :: Gen Double

@@ -47,9 +47,10 @@ controllerLines control = case control of
 readerLines :: TapeReader -> [Text]
 readerLines r =
   [ "reader " <> Decimal.exact (rowsPerSecond r) <> " rows/s",
-    "start-time " <> seconds (startTime r),
-    "frames-ahead " <> Decimal.whole (framesAhead r)
+    "start-time " <> seconds (startTime r)
   ]
+    <> ["frames-ahead " <> Decimal.whole (framesAhead r) | framesAhead r > 1]
+    <> ["fault-signal \"" <> t <> "\"" | Just t <- [faultSignal r]]
 
 jobLines :: ControlJob -> [Text]
 jobLines j =

@@ -275,7 +275,7 @@ commandsFor :: Machine -> Gen CommandWords
 commandsFor m = do
   listed <- traverse (const event) [1 .. 7 :: Int]
   ends <- resize 3 (listOf (fixedWord m =<< elements ("" : names)))
-  compensated <- elements [Nothing, Just ()]
+  compensated <- elements [Nothing, Just False, Just True]
   pure $ case (listed, names) of
     ([b, c, d, e, f, g, h], n : _) ->
       CommandWords
@@ -286,7 +286,7 @@ commandsFor m = do
           coolantOff = onlyFixed f,
           toolChange = withoutSteps g,
           auxiliary = withoutSteps h,
-          compensation = compensationBy m n <$ compensated,
+          compensation = compensationBy m n <$> compensated,
           finish = [o NonEmpty.:| [] | Just o <- ends]
         }
     _ -> noCommandWords
@@ -311,12 +311,15 @@ namesOfCommands m =
         leastNumber m n <= mostNumber m n
     ]
 
-compensationBy :: Machine -> Text -> CompensationCommands
-compensationBy m n =
+compensationBy :: Machine -> Text -> Bool -> CompensationCommands
+compensationBy m n hasSwitch =
   CompensationCommands
     (CommandWord (CommandName n) Diameter)
     (CommandWord (CommandName n) Diameter)
-    (CommandWord (CommandName n) (Fixed (leastNumber m n)))
+    least
+    (if hasSwitch then Just least else Nothing)
+  where
+    least = CommandWord (CommandName n) (Fixed (leastNumber m n))
 
 -- | A random value for the word of a command: a number, the program's argument, or a table of
 -- steps.

@@ -205,6 +205,7 @@ commandLines o =
           ( block "left" (commandWordLines (compensateLeft c))
               <> block "right" (commandWordLines (compensateRight c))
               <> block "off" (commandWordLines (cancelCompensation c))
+              <> concat [block "switch" (commandWordLines w) | Just w <- [radiusSwitch c]]
           )
         | Just c <- [compensation o]
       ]

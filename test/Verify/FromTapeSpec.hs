@@ -103,8 +103,8 @@ spec = do
     \one by one"
     $ findings (proofOf (commanded (doubledFirst Flange.frames))) `shouldSatisfy` any isCommand
   it
-    "a tape that turns a rotary axis is refused, whatever else it does, and its first turn is named \
-    \(catches a proof of three of five axes)"
+    "a tape that turns a rotary axis is refused, whatever else it does, and its first turn is \
+    \named (catches a proof of three of five axes)"
     $ case Result.output (FromToolpath.quantise n55 (path Flange.analysis)) of
       Nothing -> property False
       Just own ->
