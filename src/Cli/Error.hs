@@ -45,6 +45,8 @@ data Error
     NoController Text
   | -- | The model of this machine's controller makes no pulses.
     NoPulses Text
+  | -- | This machine's controller has no dispatcher.
+    NoDispatcher Text
   | -- | The switch that corrects the feed has no such position: the position, and those that it
     -- has.
     NoSuchOverride Int [Int]
@@ -121,6 +123,10 @@ toReport err = case err of
   NoController machine ->
     (wrong "E0815" InFile ("the description of " <> machine <> " has no section ‘controller’"))
       { hints = ["Add the section to the description; docs/new-machine.md says how."]
+      }
+  NoDispatcher machine ->
+    (wrong "E0817" InFile ("the controller of " <> machine <> " has no dispatcher"))
+      { hints = ["Only a controller with a feed integrator has one: n55, for example."]
       }
   NoPulses machine ->
     (wrong "E0815" InFile ("the model of the controller of " <> machine <> " makes no pulses"))

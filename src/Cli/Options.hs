@@ -103,6 +103,8 @@ data RunForm
   | PulseStream
   | -- | picture of the feed and the frequencies of the axes over time
     SpeedPicture (Maybe FilePath)
+  | -- | picture of the dispatcher's jobs; first and last tick that it shows
+    TimelinePicture (Maybe (Int, Int)) (Maybe FilePath)
   deriving stock (Eq, Show)
 
 -- | The parser of the whole command line; the argument is the version of partc.
@@ -235,7 +237,7 @@ runOptions =
   RunOptions
     <$> programOrTape
     <*> optional target
-    <*> form
+    <*> runFormOption
     <*> optional (frameOption "from" "Only this frame and later ones")
     <*> optional (frameOption "to" "Only frames up to this one")
     <*> optional
@@ -255,17 +257,6 @@ runOptions =
           )
       )
   where
-    form =
-      Opt.flag' RunAsJson (Opt.long "json" <> Opt.help "One JSON object a line")
-        <|> Opt.flag'
-          PulseStream
-          (Opt.long "pulses" <> Opt.help "One line for each pulse: axis, sign, tick")
-        <|> ( Opt.flag'
-                SpeedPicture
-                (Opt.long "speed" <> Opt.help "Draw feed and frequencies over time, as SVG")
-                <*> optional outputFile
-            )
-        <|> pure RunAsTable
     frameOption name description =
       Opt.option Opt.auto (Opt.long name <> Opt.metavar "FRAME" <> Opt.help description)
     programOrTape =
@@ -274,6 +265,43 @@ runOptions =
             <> Opt.help "A part program, an input sheet, or a tape; - for a tape on standard input"
             <> Opt.action "file"
         )
+
+-- | The form in which a run is written.
+runFormOption :: Parser RunForm
+runFormOption =
+  Opt.flag' RunAsJson (Opt.long "json" <> Opt.help "One JSON object a line")
+    <|> Opt.flag'
+      PulseStream
+      (Opt.long "pulses" <> Opt.help "One line for each pulse: axis, sign, tick")
+    <|> ( Opt.flag'
+            SpeedPicture
+            (Opt.long "speed" <> Opt.help "Draw feed and frequencies over time, as SVG")
+            <*> optional outputFile
+        )
+    <|> ( Opt.flag'
+            TimelinePicture
+            (Opt.long "timeline" <> Opt.help "Draw the jobs of the dispatcher, as SVG")
+            <*> optional
+              ( Opt.option
+                  tickRange
+                  ( Opt.long "ticks"
+                      <> Opt.metavar "A..B"
+                      <> Opt.help "The ticks of the clock that the timeline shows"
+                  )
+              )
+            <*> optional outputFile
+        )
+    <|> pure RunAsTable
+
+-- | Reads a range of ticks that is short enough for one page.
+tickRange :: Opt.ReadM (Int, Int)
+tickRange = do
+  (a, b) <- rangeFrom 0
+  if a < b && b - a <= most
+    then pure (a, b)
+    else Opt.readerError ("a timeline shows 1 to " <> show most <> " ticks")
+  where
+    most = 5000 :: Int
 
 -- | The number of a switch, and the radius in mm at it: @1=5.02@.
 switchRadius :: Opt.ReadM (Int, Mm)
@@ -359,11 +387,15 @@ rangeOption =
 -- | Reads a range of numbers that count from 1, for example @3..8@; @3@ means @3..3@. The result
 -- is the first and the last number of the range.
 fromTo :: Opt.ReadM (Int, Int)
-fromTo =
+fromTo = rangeFrom 1
+
+-- | Reads a range of numbers that count from @least@.
+rangeFrom :: Int -> Opt.ReadM (Int, Int)
+rangeFrom least =
   Opt.eitherReader $ \word ->
     case traverse (readMaybe . Text.unpack) (Text.splitOn ".." (Text.pack word)) of
-      Just [a] | a >= 1 -> Right (a, a)
-      Just [a, b] | 1 <= a, a <= b -> Right (a, b)
+      Just [a] | a >= least -> Right (a, a)
+      Just [a, b] | least <= a, a <= b -> Right (a, b)
       _ -> Left ("‘" <> word <> "’ is not a range such as 3..8")
 
 outputFile :: Parser FilePath

@@ -39,6 +39,7 @@ import Data.Text.Encoding qualified as Encoding
 import Draw.SpeedPlot qualified as SpeedPlot
 import Draw.TimeColumn (TimeColumns)
 import Draw.TimeColumn qualified as TimeColumn
+import Draw.Timeline qualified as Timeline
 import Frame.Frame (FrameProgram (plannedFrames))
 import Machine.Controller (Controller (..), IntegratorControl (override))
 import Machine.Machine (Machine, MachineName (..))
@@ -52,9 +53,13 @@ import Pulse.Controller (Console (..))
 import Pulse.Controller qualified as Controller
 import Pulse.ControllerRun (ControllerRun, StopReason (..))
 import Pulse.FrameCompensation (switchRadii)
-import Pulse.RunMeasure (RunTotal (stopReason))
+import Pulse.JobTimeline (TickRange (..))
+import Pulse.JobTimeline qualified as JobTimeline
+import Pulse.RunMeasure (RunTotal (stopReason, totalTicks))
+import Pulse.RunMeasure qualified as RunMeasure
 import Report.Report (Report)
 import System.FilePath (takeExtension, takeFileName)
+import Tape.Punch (TapeFrame (frameRead))
 import Tape.Punch qualified as Tape
 import Tape.Tape (Tape (..))
 
@@ -139,29 +144,42 @@ runTape reporter options subject = case correctionFor options (machine subject) 
              in measured console RunTable.frameLines after
           RunAsJson -> measured console RunTable.frameJson (totals RunTable.totalJson)
           SpeedPicture output ->
-            withRun $ \pulses ->
-              speedPicture
-                reporter
-                subject
-                output
-                (SpeedPlot.columns (machine subject) clock isShown pulses)
+            withRun (speedPicture reporter subject output . speedColumns)
+          TimelinePicture ticks output ->
+            let range = maybe (AtFeedMove isShown) (uncurry Ticks) ticks
+             in withDispatcher reporter subject $ \control ->
+                  withRun (timelinePicture reporter subject output range control)
   where
     clock = clockOf subject
     totals make = make (machine subject) clock
+    speedColumns = SpeedPlot.columns (machine subject) clock isShown
     measured console lines' after =
       case Controller.measuredWith (machine subject) console 0 (rows subject) of
         Nothing -> failWith reporter (tapeName subject) (NoController (machineName subject))
         Just list -> written (lines' (machine subject) clock isShown list) stopReason after
     isShown n = all (n >=) (fromFrame options) && all (n <=) (toFrame options)
     written :: LazyList e Builder -> (e -> StopReason) -> (e -> Builder) -> IO Exit
-    written parts reasonOf after = do
-      done <- Output.resultStream (partsToCollection (runForm options)) parts
-      case done of
-        Left why -> exitAfterWriting reporter "" "to standard output" (Left why)
-        Right Nothing -> pure Done
-        Right (Just e) -> do
-          _ <- Output.resultStream 1 (LazyList.Next (after e) (LazyList.End ()))
-          afterStop reporter subject (reasonOf e)
+    written = writeStream reporter subject (partsToCollection (runForm options))
+
+-- | Writes the parts of an output, and what @after@ makes of the value behind the last one.
+-- @toCollection@ is the count of parts after which garbage is collected. @reasonOf@ gives the
+-- reason why the run has stopped.
+writeStream ::
+  Reporter ->
+  RunSubject ->
+  Int ->
+  LazyList e Builder ->
+  (e -> StopReason) ->
+  (e -> Builder) ->
+  IO Exit
+writeStream reporter subject toCollection parts reasonOf after = do
+  done <- Output.resultStream toCollection parts
+  case done of
+    Left why -> exitAfterWriting reporter "" "to standard output" (Left why)
+    Right Nothing -> pure Done
+    Right (Just e) -> do
+      _ <- Output.resultStream 1 (LazyList.Next (after e) (LazyList.End ()))
+      afterStop reporter subject (reasonOf e)
 
 -- | Frequency of the clock of a controller.
 clockOf :: RunSubject -> Int
@@ -189,6 +207,43 @@ speedPicture reporter subject output (columns, why)
   where
     picture = SpeedPlot.plot (machine subject) axes (clockOf subject) (shortName subject) columns
     axes = RunTable.axisNames (machine subject)
+
+-- | Continues with the control of a machine that has a dispatcher. The command fails with a report
+-- if the machine has none.
+withDispatcher :: Reporter -> RunSubject -> (IntegratorControl -> IO Exit) -> IO Exit
+withDispatcher reporter subject continue = case Machine.controller (machine subject) of
+  Just (Integrating control) -> continue control
+  Just (Stepping _) -> refused
+  Just (Planning _) -> refused
+  Nothing -> refused
+  where
+    refused = failWith reporter (tapeName subject) (NoDispatcher (machineName subject))
+
+-- | Writes the picture of the dispatcher's jobs in a range of a run.
+timelinePicture ::
+  Reporter ->
+  RunSubject ->
+  Maybe FilePath ->
+  TickRange ->
+  IntegratorControl ->
+  ControllerRun ->
+  IO Exit
+timelinePicture reporter subject output range control pulses =
+  case JobTimeline.collect (machine subject) control range pulses of
+    Just timeline ->
+      writeText
+        reporter
+        (tapeName subject)
+        (sources subject)
+        output
+        (Timeline.plot (machine subject) control (shortName subject) timeline)
+    Nothing -> failWith reporter (tapeName subject) $ case range of
+      Ticks _ _ -> NothingInRange "tick" (maybe 0 (totalTicks . LazyList.end) measured)
+      AtFeedMove _ -> NothingInRange "feed move" (length (filter isFeedMove frames))
+  where
+    measured = Controller.measured (machine subject) 1 0 (rows subject)
+    frames = LazyList.toList (Tape.readInTurn (machine subject) 0 (rows subject))
+    isFeedMove = RunMeasure.isAtFeed (machine subject) . frameRead
 
 -- | Name of the tape or program without its folder.
 shortName :: RunSubject -> Text
@@ -220,6 +275,7 @@ partsToCollection form = case form of
   RunAsTable -> 256
   RunAsJson -> 256
   SpeedPicture _ -> 256
+  TimelinePicture _ _ -> 256
 
 -- | Correction of the feed as a factor, from the position of the switch that the command line
 -- names.

@@ -7,6 +7,7 @@ module Pulse.RunMeasure
     RunTotal (..),
     JobLoad (..),
     measure,
+    isAtFeed,
   )
 where
 
