@@ -109,11 +109,7 @@ gridLines content rows timeline =
     ticks = Chart.roundSteps step (left, right)
     isWithin t = t >= firstTick timeline && t <= lastTick timeline
     upright pen x =
-      Svg.stroke
-        pen
-        [ Straight (at content (x, snd (upwards content))) (at content (x, 0)),
-          Straight (at rows (x, snd (upwards rows))) (at rows (x, 0))
-        ]
+      Svg.stroke pen [Straight (at content (x, snd (upwards content))) (at rows (x, 0))]
     frameStart t n =
       let p = Vec.shift (Vec.vec 0.4 (-1)) (at content (fromIntegral t, snd (upwards content)))
        in [ upright framePen (fromIntegral t),

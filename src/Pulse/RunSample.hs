@@ -4,9 +4,9 @@
 -- The feed is measured over the windows of "Pulse.FeedWindow"; the rest of a frame that is shorter
 -- than a window keeps the feed of the last one. The frequency of an axis is measured between two of
 -- its own pulses. The first of them is the axis's first pulse in the frame; the second is the first
--- pulse after the end of a window. Before its first and after its last pulse in a frame an axis
--- keeps the frequency of its nearest measurement. Where an axis turns back, its frequency is 0
--- between the last pulse in one direction and the first in the other.
+-- pulse after the end of a window. Before its first and after its last pulse in a frame an axis has
+-- the frequency of its nearest measurement, for one period at most. Where an axis turns back, its
+-- frequency is 0 between the last pulse in one direction and the first in the other.
 module Pulse.RunSample
   ( RunSample (..),
     SampleKind (..),
@@ -157,13 +157,22 @@ pulsed clock begin t d a = case a of
   Still -> (Moved begin t 0 d t False Nothing, [])
   Moved {begins, base, counted, direction, lastPulse, isDue, before}
     | d /= direction ->
-      let found = [(begins, lastPulse, rateOf clock a) | counted > 0]
-       in (Moved t t 0 d t False (Just 0), found <> [(lastPulse, t, 0)])
-    | isDue ->
-      let rate = rateOf clock after in (Moved t t 0 d t False (Just rate), [(begins, t, rate)])
+      let (found, still) = if counted > 0 then (upTo clock lastPulse a, lastPulse) else ([], begins)
+       in (Moved t t 0 d t False (Just 0), found <> [(still, t, 0)])
+    | isDue -> (Moved t t 0 d t False (Just (rateOf clock after)), upTo clock t after)
     | otherwise -> (after, [])
     where
       after = Moved begins base (counted + 1) direction t isDue before
+
+-- | Samples of an axis up to a tick. The time before the first pulse of a frame belongs to its
+-- first sample, if it is at most one period; otherwise, as in a ramp, it is a sample of one pulse.
+upTo :: Int -> Tick -> AxisSampler -> [(Tick, Tick, Double)]
+upTo clock t a = case a of
+  Still -> []
+  Moved {begins, base, direction}
+    | abs (rateOf clock a) * fromIntegral (base - begins) > fromIntegral clock ->
+      [(begins, base, perSecond clock direction (base - begins)), (base, t, rateOf clock a)]
+    | otherwise -> [(begins, t, rateOf clock a)]
 
 -- | Frequency of an axis between the first and the last pulse of a sample.
 rateOf :: Int -> AxisSampler -> Double
@@ -186,10 +195,10 @@ closing machine clock t f
         Just v <- [askedAlong machine s p]
     ]
       <> [RunSample (feedKind f) (FeedWindow.since w) t lastFeed | FeedWindow.since w < t]
-      <> [ RunSample (AxisFrequency k) from' t v
+      <> [ RunSample (AxisFrequency k) from' to' v
            | (k, a) <- zip [0 ..] (axes f),
-             (from', v) <- [atEnd a],
-             from' < t
+             (from', to', v) <- atEnd a,
+             from' < to'
          ]
   where
     s = start f
@@ -199,11 +208,16 @@ closing machine clock t f
       Just _ -> FeedWindow.latest w
       Nothing -> FeedWindow.speed clock (FeedWindow.pathLength w) (t - begin)
     atEnd a = case a of
-      Still -> (begin, 0)
-      Moved {}
-        | counted a > 0 -> (begins a, rateOf clock a)
-        | Just v <- before a -> (begins a, v)
-        | otherwise -> (begin, perSecond clock (direction a) (t - begin))
+      Still -> [(begin, t, 0)]
+      Moved {begins, counted, before, direction, lastPulse}
+        | counted > 0,
+          isPause lastPulse (rateOf clock a) ->
+          upTo clock lastPulse a <> [(lastPulse, t, 0)]
+        | counted > 0 -> upTo clock t a
+        | Just v <- before -> [(begins, t, if isPause begins v then 0 else v)]
+        | otherwise -> [(begin, t, perSecond clock direction (t - begin))]
+    -- An axis rests that makes no pulse for longer than a period.
+    isPause since rate = abs rate * fromIntegral (t - since) > fromIntegral clock
 
 -- | Kind of the feed in a frame.
 feedKind :: FrameSampler -> SampleKind

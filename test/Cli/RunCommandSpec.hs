@@ -4,6 +4,8 @@ module Cli.RunCommandSpec (spec) where
 import Command (inFolder, partc)
 import Data.ByteString qualified as ByteString
 import Data.List (isInfixOf)
+import Data.Text qualified as Text
+import Data.Text.Encoding qualified as Encoding
 import System.Exit (ExitCode (..))
 import System.FilePath ((</>))
 import Test.Hspec
@@ -55,5 +57,36 @@ spec = describe "partc run" $ do
     (code, none) `shouldBe` (ExitSuccess, ExitFailure 1)
     out `shouldSatisfy` isInfixOf "at the end of the program"
     err `shouldSatisfy` isInfixOf "E0815"
+  it "draws the speed into a file or to standard output, and refuses to replace the program" $
+    inFolder $ \folder -> do
+      text <- readFile "examples/flange.part"
+      writeFile (folder </> "flange.part") text
+      let speed options =
+            partc (["run", folder </> "flange.part", "-t", "lki-u", "--speed"] <> options)
+      (code, out, _) <- speed ["--to", "3"]
+      (written, _, _) <- speed ["--to", "3", "-o", folder </> "x.svg"]
+      drawn <- ByteString.readFile (folder </> "x.svg")
+      (refused, _, err) <- speed ["-o", folder </> "flange.part"]
+      (code, written, refused) `shouldBe` (ExitSuccess, ExitSuccess, ExitFailure 1)
+      Encoding.encodeUtf8 (Text.pack out) `shouldBe` drawn
+      out `shouldSatisfy` isInfixOf "flange.part on lki-u"
+      err `shouldSatisfy` isInfixOf "E0807"
+      readFile (folder </> "flange.part") `shouldReturn` text
+  it "draws the jobs of a dispatcher, which other controllers lack (E0817)" $ do
+    let timeline machine options =
+          partc (["run", "examples/flange.part", "-t", machine, "--timeline"] <> options)
+    (code, out, _) <- timeline "n55" ["--from", "3"]
+    (none, _, err) <- timeline "lki-u" []
+    (late, _, err') <- timeline "n55" ["--ticks", "90000000..90000100"]
+    (code, none, late) `shouldBe` (ExitSuccess, ExitFailure 1, ExitFailure 1)
+    out `shouldSatisfy` isInfixOf "frame 3"
+    err `shouldSatisfy` isInfixOf "E0817"
+    err' `shouldSatisfy` isInfixOf "E0812"
+  it "draws no frames that the tape lacks (E0812), and no speed of a path planner (E0815)" $ do
+    (late, _, err) <- partc ["run", shaft, "-t", "kontur-3p", "--speed", "--from", "9"]
+    (none, _, err') <- partc ["run", "examples/flange.part", "-t", "iso6983", "--speed"]
+    (late, none) `shouldBe` (ExitFailure 1, ExitFailure 1)
+    err `shouldSatisfy` isInfixOf "E0812"
+    err' `shouldSatisfy` isInfixOf "E0815"
   where
     shaft = "examples/shaft.part"
