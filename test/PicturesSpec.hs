@@ -1,4 +1,4 @@
--- | Each picture of the documents is the drawing of the program above it.
+-- | Each picture of the documents is the drawing of the program above it, or of the run of a tape.
 --
 -- With PARTC_RECORD set, the pictures are drawn again (@make pictures@); without it a missing
 -- picture is a failure.
@@ -7,6 +7,7 @@ module PicturesSpec (spec) where
 import Base.Result qualified as Result
 import Blocks (Block (..))
 import Blocks qualified
+import Command (partc)
 import Compile (Analysis (..))
 import Compile qualified
 import Control.Monad (forM_)
@@ -20,6 +21,7 @@ import Project.LoadedProgram qualified as LoadedProgram
 import Report.Report qualified as Report
 import System.Directory (createDirectoryIfMissing, listDirectory)
 import System.Environment (lookupEnv)
+import System.Exit (ExitCode (..))
 import System.FilePath ((<.>), (</>))
 import Test.Hspec
 
@@ -35,20 +37,30 @@ spec = describe "pictures are what partc plot draws" $ do
   it "docs/flange.svg: the flange" $ do
     text <- readText "examples/flange.part"
     drawn recording "docs/flange.svg" (LoadedProgram.fromText "flange.part" text)
+  forM_ runs $ \(name, options) -> it ("partc " <> unwords options) $ do
+    (code, svg, _) <- partc options
+    code `shouldBe` ExitSuccess
+    compared recording (folder </> name <.> "svg") (Text.pack svg)
   it "no picture is left over" $ do
     present <- listDirectory folder
-    sort present `shouldBe` sort [Text.unpack name <.> "svg" | (_, _, name) <- shown]
+    sort present
+      `shouldBe` sort (map (<.> "svg") ([Text.unpack name | (_, _, name) <- shown] <> map fst runs))
   where
     folder = "docs/pictures"
+    cone = ["run", "examples/cone.n55.tape", "-t", "n55"]
+    runs =
+      [ ("speed", cone <> ["--speed"]),
+        ("dispatcher", cone <> ["--timeline", "--ticks", "3479900..3480400"])
+      ]
     drawn recording target program = do
       let result = Compile.analyse [] program
       map Report.title (Result.errors result) `shouldBe` []
-      forM_ (Result.output result) $ \a -> do
-        let svg = Plot.plot (part a) (path a)
-        case recording of
-          Just _ -> ByteString.writeFile target (Encoding.encodeUtf8 svg)
-          -- Only the comparison: a failure would print both texts.
-          Nothing -> readText target >>= \old -> (old == svg) `shouldBe` True
+      forM_ (Result.output result) $ \a ->
+        compared recording target (Plot.plot (part a) (path a))
+    compared recording target svg = case recording of
+      Just _ -> ByteString.writeFile target (Encoding.encodeUtf8 svg)
+      -- Only the comparison: a failure would print both texts.
+      Nothing -> readText target >>= \old -> (old == svg) `shouldBe` True
     withPictures file = do
       text <- readText file
       pure [(file, b, name) | b <- Blocks.blocks text, Just name <- [picture b]]
