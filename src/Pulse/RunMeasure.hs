@@ -9,6 +9,7 @@ module Pulse.RunMeasure
     RunTotal (..),
     JobLoad (..),
     measure,
+    pulsesInWindow,
   )
 where
 
@@ -199,6 +200,10 @@ rulerOf machine p = case p of
   where
     long = FramePath.pathLength machine p
     Mm pulse = Machine.resolutionOf machine X
+
+-- | Length of a window on a path, as a count of pulses of the leading axis, or of cycles on an arc.
+pulsesInWindow :: Machine -> FramePath -> Int
+pulsesInWindow machine = windowCount . rulerOf machine
 
 -- | Meter after the pulses of one tick.
 stepped :: Int -> Tick -> Steps -> Meter -> Meter
