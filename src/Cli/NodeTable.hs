@@ -242,6 +242,8 @@ controllerRow machine Punched {program, tape} =
     timeOrStop whole clock = case stopReason whole of
       TooFast n _ _ -> ["", "stops before frame " <> Decimal.whole n]
       FeedHeld n -> ["", "stops before frame " <> Decimal.whole n]
+      SwitchNotSet n _ -> ["", "stops before frame " <> Decimal.whole n]
+      NotCompensated n _ -> ["", "stops before frame " <> Decimal.whole n]
       Unreadable _ -> ["", "stops before a frame that cannot be read"]
       TapeEnds -> [Decimal.fixed 1 (fromIntegral (totalTicks whole) / fromIntegral clock), "s"]
       ProgramEnds -> [Decimal.fixed 1 (fromIntegral (totalTicks whole) / fromIntegral clock), "s"]

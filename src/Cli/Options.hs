@@ -95,8 +95,14 @@ data RunOptions = RunOptions
   }
   deriving stock (Eq, Show)
 
--- | Form in which a run is written.
-data RunForm = RunAsTable | RunAsJson | PulseStream
+-- | Form in which a run is written. A @Maybe FilePath@ is the file of a picture; nothing means
+-- standard output.
+data RunForm
+  = RunAsTable
+  | RunAsJson
+  | PulseStream
+  | -- | picture of the feed and the frequencies of the axes over time
+    SpeedPicture (Maybe FilePath)
   deriving stock (Eq, Show)
 
 -- | The parser of the whole command line; the argument is the version of partc.
@@ -254,15 +260,22 @@ runOptions =
         <|> Opt.flag'
           PulseStream
           (Opt.long "pulses" <> Opt.help "One line for each pulse: axis, sign, tick")
+        <|> ( Opt.flag'
+                SpeedPicture
+                (Opt.long "speed" <> Opt.help "Draw feed and frequencies over time, as SVG")
+                <*> optional outputFile
+            )
         <|> pure RunAsTable
     frameOption name description =
       Opt.option Opt.auto (Opt.long name <> Opt.metavar "FRAME" <> Opt.help description)
-    programOrTape =
-      Opt.strArgument
-        ( Opt.metavar "FILE"
-            <> Opt.help "A part program, an input sheet, or a tape; - for a tape on standard input"
-            <> Opt.action "file"
-        )
+
+programOrTape :: Parser FilePath
+programOrTape =
+  Opt.strArgument
+    ( Opt.metavar "FILE"
+        <> Opt.help "A part program, an input sheet, or a tape; - for a tape on standard input"
+        <> Opt.action "file"
+    )
 
 -- | The number of a switch, and the radius in mm at it: @1=5.02@.
 switchRadius :: Opt.ReadM (Int, Mm)

@@ -1,5 +1,5 @@
 -- | The subcommand @run@: runs a tape on the model of its controller, and writes times, pulses and
--- feeds.
+-- feeds, or draws them.
 module Cli.RunCommand
   ( run,
   )
@@ -18,6 +18,7 @@ import Cli.InputFile
   ( Input (..),
     descriptionsFor,
     displayName,
+    ownFiles,
     readBytes,
     source,
     withInput,
@@ -26,13 +27,18 @@ import Cli.Options (RunForm (..), RunOptions (..))
 import Cli.Outcome (exitAfterWriting, failWith, failWithReport, whenSound)
 import Cli.Output (Exit (..), Reporter)
 import Cli.Output qualified as Output
+import Cli.OutputFile (writeText)
 import Cli.RunTable qualified as RunTable
 import Compile (Compiled, Punched (..))
 import Compile qualified
 import Data.ByteString.Builder (Builder)
 import Data.Maybe (fromMaybe, maybeToList)
 import Data.Text (Text)
+import Data.Text qualified as Text
 import Data.Text.Encoding qualified as Encoding
+import Draw.SpeedPlot qualified as SpeedPlot
+import Draw.TimeColumn (TimeColumns)
+import Draw.TimeColumn qualified as TimeColumn
 import Frame.Frame (FrameProgram (plannedFrames))
 import Machine.Controller (Controller (..), IntegratorControl (override))
 import Machine.Machine (Machine, MachineName (..))
@@ -44,11 +50,11 @@ import Project.LoadedProgram qualified as LoadedProgram
 import Project.Target qualified as Target
 import Pulse.Controller (Console (..))
 import Pulse.Controller qualified as Controller
-import Pulse.ControllerRun (StopReason (..))
+import Pulse.ControllerRun (ControllerRun, StopReason (..))
 import Pulse.FrameCompensation (switchRadii)
 import Pulse.RunMeasure (RunTotal (stopReason))
 import Report.Report (Report)
-import System.FilePath (takeExtension)
+import System.FilePath (takeExtension, takeFileName)
 import Tape.Punch qualified as Tape
 import Tape.Tape (Tape (..))
 
@@ -58,26 +64,53 @@ run reporter options
   | isProgram = withInput reporter file (maybeToList target) $ \given ->
     whenSound reporter (name given) (source given) (compiled target given) $ \made ->
       let punched = Compile.punched made
-          known = switchRadii (Compile.machine made) (plannedFrames (program punched))
-          subject = RunSubject (name given) (source given) (Compile.machine made) known
-       in runTape reporter options subject (tape punched)
+          rows = tape punched
+       in runTape
+            reporter
+            options
+            Subject
+              { tapeName = name given,
+                text = source given,
+                machine = Compile.machine made,
+                rows,
+                sources = ownFiles file given,
+                known = switchRadii (Compile.machine made) (plannedFrames (program punched))
+              }
   | otherwise = case target of
-    Nothing -> failWith reporter tapeName (NoMachineForTape Target.builtInNames)
+    Nothing -> failWith reporter shown (NoMachineForTape Target.builtInNames)
     Just wanted -> do
       descriptions <- descriptionsFor [wanted] []
       case Target.machineNamed descriptions wanted of
-        Left e -> failWithReport reporter tapeName (Project.toReport e)
+        Left e -> failWithReport reporter shown (Project.toReport e)
         Right machine ->
           readBytes file
-            >>= either
-              (failWith reporter tapeName)
-              (runTape reporter options (fromTape machine) . Tape)
+            >>= either (failWith reporter shown) (runTape reporter options . onTape wanted machine)
   where
     file = runInput options
     target = runTarget options
-    tapeName = displayName file
-    fromTape machine = RunSubject tapeName (Region.fromText tapeName "") machine []
+    shown = displayName file
+    onTape wanted machine bytes =
+      Subject
+        { tapeName = shown,
+          text = Region.fromText shown "",
+          machine,
+          rows = Tape bytes,
+          sources = [file, Text.unpack wanted],
+          known = []
+        }
     isProgram = takeExtension file == ".part" || LoadedProgram.isInputSheet file
+
+-- | Tape to run: its name and text in reports, its machine, its rows, and the files that no output
+-- may replace.
+data Subject = Subject
+  { tapeName :: Text,
+    text :: Source,
+    machine :: Machine,
+    rows :: Tape,
+    sources :: [FilePath],
+    -- | radius of the cutter at each switch that the program uses
+    known :: [(Int, Mm)]
+  }
 
 -- | Compiles a program for the chosen machine, or for the machine that the program names. The tape
 -- is not verified.
@@ -90,31 +123,31 @@ compiled target given = do
   where
     job = Job.forTargets (maybeToList target) (values given) (loaded given)
 
--- | Tape that is run: its name and its text in reports, its machine, and the radius of the cutter
--- at each switch that the program uses.
-data RunSubject = RunSubject Text Source Machine [(Int, Mm)]
-
 -- | Runs a tape and writes the chosen form. The cutter starts at 0.
-runTape :: Reporter -> RunOptions -> RunSubject -> Tape -> IO Exit
-runTape reporter options subject rows = case correctionFor options machine of
-  Left e -> failWith reporter tapeName e
+runTape :: Reporter -> RunOptions -> Subject -> IO Exit
+runTape reporter options subject = case correctionFor options (machine subject) of
+  Left e -> failWith reporter (tapeName subject) e
   Right correction -> case runForm options of
-    PulseStream -> case Controller.runWith machine console 0 rows of
-      Nothing -> failWith reporter tapeName (NoPulses machineName)
-      Just pulses -> written (RunTable.pulseLines machine isShown pulses) id (const mempty)
+    PulseStream -> withPulses reporter subject (console correction) $ \pulses ->
+      written (RunTable.pulseLines (machine subject) isShown pulses) id (const mempty)
     RunAsTable ->
-      measured RunTable.frameLines (Encoding.encodeUtf8Builder . totals RunTable.totalLines)
-    RunAsJson -> measured RunTable.frameJson (totals RunTable.totalJson)
-    where
-      console = Console {correction, radii = switchesAt options <> known}
-      clock = fromMaybe 1 (Controller.ticksPerSecond machine)
-      totals make = make machine clock
-      measured lines' after = case Controller.measuredWith machine console 0 rows of
-        Nothing -> failWith reporter tapeName (NoController machineName)
-        Just list -> written (lines' machine clock isShown list) stopReason after
+      let after = Encoding.encodeUtf8Builder . totals RunTable.totalLines
+       in measured correction RunTable.frameLines after
+    RunAsJson -> measured correction RunTable.frameJson (totals RunTable.totalJson)
+    SpeedPicture output -> withPulses reporter subject (console correction) $ \pulses ->
+      speedPicture
+        reporter
+        subject
+        output
+        (SpeedPlot.columns (machine subject) clock isShown pulses)
   where
-    RunSubject tapeName text machine known = subject
-    MachineName machineName = Machine.name machine
+    clock = clockOf subject
+    totals make = make (machine subject) clock
+    measured correction lines' after =
+      case Controller.measuredWith (machine subject) (console correction) 0 (rows subject) of
+        Nothing -> failWith reporter (tapeName subject) (NoController (machineName subject))
+        Just list -> written (lines' (machine subject) clock isShown list) stopReason after
+    console correction = Console {correction, radii = switchesAt options <> known subject}
     isShown n = all (n >=) (fromFrame options) && all (n <=) (toFrame options)
     written :: LazyList e Builder -> (e -> StopReason) -> (e -> Builder) -> IO Exit
     written parts reasonOf after = do
@@ -124,15 +157,62 @@ runTape reporter options subject rows = case correctionFor options machine of
         Right Nothing -> pure Done
         Right (Just e) -> do
           _ <- Output.resultStream 1 (LazyList.Next (after e) (LazyList.End ()))
-          case reasonOf e of
-            Unreadable damage -> stoppedWith (Tape.toReport damage)
-            TooFast n asked most -> stoppedWith (Cli.toReport (FeedTooHigh n asked most))
-            TapeEnds -> pure Done
-            ProgramEnds -> pure Done
-            FeedHeld _ -> pure Done
-            SwitchNotSet n k -> stoppedWith (Cli.toReport (SwitchMissing n k))
-            NotCompensated n why -> stoppedWith (Cli.toReport (CompensationFails n why))
-    stoppedWith report = Failed <$ Output.showReports reporter tapeName text [report]
+          afterStop reporter subject (reasonOf e)
+
+-- | Frequency of the clock of a controller.
+clockOf :: Subject -> Int
+clockOf = fromMaybe 1 . Controller.ticksPerSecond . machine
+
+machineName :: Subject -> Text
+machineName subject = let MachineName name' = Machine.name (machine subject) in name'
+
+-- | Continues with the pulses of a run. The command fails with a report if the controller makes
+-- none.
+withPulses :: Reporter -> Subject -> Console -> (ControllerRun -> IO Exit) -> IO Exit
+withPulses reporter subject console continue =
+  case Controller.runWith (machine subject) console 0 (rows subject) of
+    Nothing -> failWith reporter (tapeName subject) (NoPulses (machineName subject))
+    Just pulses -> continue pulses
+
+-- | Writes the picture of the feed and the frequencies.
+speedPicture :: Reporter -> Subject -> Maybe FilePath -> (TimeColumns, StopReason) -> IO Exit
+speedPicture reporter subject output (columns, why)
+  | null (TimeColumn.frameStarts columns) =
+    failWith reporter (tapeName subject) (NothingInRange "frame" (frameCount subject))
+  | otherwise = writePicture reporter subject output picture why
+  where
+    picture = SpeedPlot.plot (machine subject) axes (clockOf subject) (shortName subject) columns
+    axes = RunTable.axisNames (machine subject)
+
+-- | Writes a picture, and reports why the run has stopped before the end of the tape, if it has.
+writePicture :: Reporter -> Subject -> Maybe FilePath -> Text -> StopReason -> IO Exit
+writePicture reporter subject output picture why = do
+  exit <- writeText reporter (tapeName subject) (sources subject) output picture
+  if exit == Done then afterStop reporter subject why else pure exit
+
+-- | Name of the tape or program without its folder.
+shortName :: Subject -> Text
+shortName = Text.pack . takeFileName . Text.unpack . tapeName
+
+-- | Count of the frames that run.
+frameCount :: Subject -> Int
+frameCount subject =
+  maybe 0 (length . LazyList.toList) (Controller.measured (machine subject) 1 0 (rows subject))
+
+-- | Exit status after a run that stops for a reason, which is reported if it is a fault of the
+-- tape.
+afterStop :: Reporter -> Subject -> StopReason -> IO Exit
+afterStop reporter subject why = case why of
+  Unreadable damage -> stoppedWith (Tape.toReport damage)
+  TooFast n asked most -> stoppedWith (Cli.toReport (FeedTooHigh n asked most))
+  TapeEnds -> pure Done
+  ProgramEnds -> pure Done
+  FeedHeld _ -> pure Done
+  SwitchNotSet n k -> stoppedWith (Cli.toReport (SwitchMissing n k))
+  NotCompensated n fault -> stoppedWith (Cli.toReport (CompensationFails n fault))
+  where
+    stoppedWith report =
+      Failed <$ Output.showReports reporter (tapeName subject) (text subject) [report]
 
 -- | Count of parts of the output after which garbage is collected. A part is the line of a pulse,
 -- or of a frame, which has many pulses.
@@ -141,6 +221,7 @@ partsToCollection form = case form of
   PulseStream -> 65536
   RunAsTable -> 256
   RunAsJson -> 256
+  SpeedPicture _ -> 256
 
 -- | Correction of the feed as a factor, from the position of the switch that the command line
 -- names.

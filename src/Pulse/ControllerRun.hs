@@ -9,6 +9,7 @@ module Pulse.ControllerRun
     FrameStart (..),
     JobRun (..),
     StopReason (..),
+    fold,
   )
 where
 
@@ -74,3 +75,17 @@ data StopReason
     -- and the reason, which completes a sentence that begins with the frame.
     NotCompensated Int Text
   deriving stock (Eq, Show)
+
+-- | Strict left fold over the events of a run. The function also gets the last event.
+fold :: (s -> ControllerRun -> s) -> s -> ControllerRun -> s
+fold f = go
+  where
+    go s run =
+      let s' = f s run
+       in s' `seq` case run of
+            FrameBegins _ more -> go s' more
+            Stepped _ _ more -> go s' more
+            FrameEnds _ more -> go s' more
+            Commanded _ _ _ more -> go s' more
+            JobDone _ more -> go s' more
+            Stopped _ _ -> s'

@@ -1,28 +1,24 @@
 -- | Measures of a run: times, pulses and feeds of each frame, and of the whole tape.
 --
--- The feed is measured from the pulses alone: over each millimetre of a frame's path, between two
--- pulses of the leading axis on a line, and between two cycles on an arc. A frame that is shorter
--- than a millimetre has one measurement. Where only rotary axes move, a degree takes the place of
--- the millimetre. Seconds are computed from whole ticks at the end.
+-- The feed is measured from the pulses alone, over the windows of "Pulse.FeedWindow". Seconds are
+-- computed from whole ticks at the end.
 module Pulse.RunMeasure
   ( FrameMeasure (..),
     RunTotal (..),
     JobLoad (..),
     measure,
-    pulsesInWindow,
   )
 where
 
 import Base.LazyList (LazyList)
 import Base.LazyList qualified as LazyList
-import Base.Quantity (Mm (..))
 import Data.Map.Strict (Map)
 import Data.Map.Strict qualified as Map
 import Data.Maybe (isNothing)
 import Data.Text (Text)
 import Frame.Frame (Frame (feedCode, motion), FrameMotion (..))
 import Machine.Controller (ControlJob (jobName))
-import Machine.Machine (Axis (X), CommandName, Machine)
+import Machine.Machine (CommandName, Machine)
 import Machine.Machine qualified as Machine
 import Pulse.ControllerRun
   ( ControllerRun (..),
@@ -32,7 +28,9 @@ import Pulse.ControllerRun
     Tick,
   )
 import Pulse.ControllerRun qualified
-import Pulse.FramePath (AskedFeed, FramePath (Arc, Line, clockwise))
+import Pulse.FeedWindow (FeedWindow)
+import Pulse.FeedWindow qualified as FeedWindow
+import Pulse.FramePath (AskedFeed)
 import Pulse.FramePath qualified as FramePath
 import Pulse.Steps (Pulses5 (..), Steps)
 import Pulse.Steps qualified as Steps
@@ -95,34 +93,8 @@ data Progress = Progress
 data Meter = Meter
   { progress :: Progress,
     start :: FrameStart,
-    ruler :: Ruler,
     given :: [(Tick, CommandName, Int)],
-    counter :: Counter,
-    window :: Window
-  }
-
--- | Measures of a path: its length, the length of a window as a count of pulses of the leading
--- axis or of cycles on an arc, the axis whose pulses are counted (−1 for all), and for a line the
--- length of the path for each of these pulses.
-data Ruler = Ruler
-  { long :: Double,
-    windowCount :: Int,
-    countedAxis :: Int,
-    perCount :: Double,
-    pulseLength :: Double
-  }
-
--- | Position relative to the beginning of the frame, and the counts of pulses of each axis.
-data Counter = Counter {relative :: Pulses5, made :: Pulses5}
-
--- | Window over which the feed is measured: the tick and the position at its start, the count that
--- is left up to its end, and the least and the highest feed of the windows before.
-data Window = Window
-  { since :: Tick,
-    from :: Pulses5,
-    left :: Int,
-    least :: Double,
-    most :: Double
+    window :: FeedWindow
   }
 
 -- | Measures the frames of a run, one after the other. The second argument is the frequency of the
@@ -180,71 +152,13 @@ begun machine p s =
   Meter
     { progress = p,
       start = s,
-      ruler,
       given = [],
-      counter = Counter zero zero,
-      window = Window (startTick s) zero (windowCount ruler) (1 / 0) 0
+      window = FeedWindow.begin machine (startTick s) (path s)
     }
-  where
-    ruler = maybe (Ruler 0 1 (-1) 0 0) (rulerOf machine) (path s)
-
--- | Ruler of a path. A window has at least one millimetre, or the whole of a shorter line.
-rulerOf :: Machine -> FramePath -> Ruler
-rulerOf machine p = case p of
-  Line d ->
-    let n = FramePath.leadingPulses d
-        each = long / fromIntegral (max 1 n)
-        inWindow = max 1 (min n (ceiling (1 / max 1e-9 each)))
-     in Ruler long inWindow (FramePath.leadingAxis d) each pulse
-  Arc {} -> Ruler long (max 1 (ceiling (4 / pi / pulse))) (-1) 0 pulse
-  where
-    long = FramePath.pathLength machine p
-    Mm pulse = Machine.resolutionOf machine X
-
--- | Length of a window on a path, as a count of pulses of the leading axis, or of cycles on an arc.
-pulsesInWindow :: Machine -> FramePath -> Int
-pulsesInWindow machine = windowCount . rulerOf machine
 
 -- | Meter after the pulses of one tick.
 stepped :: Int -> Tick -> Steps -> Meter -> Meter
-stepped clock t steps m
-  | countedAxis (ruler m) >= 0 && Steps.onAxis (countedAxis (ruler m)) steps == 0 = m {counter = c}
-  | left w > 1 = m {counter = c, window = w {left = left w - 1}}
-  | otherwise =
-    let feed = speed clock (windowLength m (relative c)) (t - since w)
-     in m
-          { counter = c,
-            window =
-              Window
-                { since = t,
-                  from = relative c,
-                  left = windowCount (ruler m),
-                  least = min (least w) feed,
-                  most = max (most w) feed
-                }
-          }
-  where
-    w = window m
-    Counter p n = counter m
-    c = Counter (Steps.advance steps p) (Steps.countEach steps n)
-
--- | Length of the path in the window that ends at the given position.
-windowLength :: Meter -> Pulses5 -> Double
-windowLength m to = case path (start m) of
-  Just (Arc {clockwise, FramePath.from = (i, j)}) ->
-    let Pulses5 a b _ _ _ = from (window m)
-        Pulses5 c d _ _ _ = to
-        (u, v, u', v') = (i + a, j + b, i + c, j + d)
-        turn = atan2 (fromIntegral (u * v' - v * u')) (fromIntegral (u * u' + v * v')) :: Double
-        angle = if clockwise then negate turn else turn
-        radius = sqrt (fromIntegral (i * i + j * j)) * pulseLength (ruler m)
-     in radius * (if angle < 0 then angle + 2 * pi else angle)
-  Just (Line _) -> perCount (ruler m) * fromIntegral (windowCount (ruler m))
-  Nothing -> 0
-
--- | Feed in mm\/min for a length in mm and a time in ticks.
-speed :: Int -> Double -> Tick -> Double
-speed clock l t = 60 * l * fromIntegral clock / fromIntegral (max 1 t)
+stepped clock t steps m = m {window = FeedWindow.step clock t steps (window m)}
 
 -- | Measures of a frame that ends at a tick, and the state after it.
 ended :: Machine -> Int -> Tick -> Meter -> (FrameMeasure, Progress)
@@ -253,9 +167,11 @@ ended machine clock t m = (f, p')
     s = start m
     p = progress m
     ticks = t - startTick s
-    mean = speed clock (long (ruler m)) ticks
-    hasTime = ticks > 0 && long (ruler m) > 0
-    hz = map perSecond (Steps.toList (made (counter m)))
+    w = window m
+    long = FeedWindow.pathLength w
+    mean = FeedWindow.speed clock long ticks
+    hasTime = ticks > 0 && long > 0
+    hz = map perSecond (Steps.toList (FeedWindow.made w))
     perSecond n = fromIntegral n * fromIntegral clock / fromIntegral ticks
     frequencies = if hasTime then hz else lastFrequencies p
     isFeedMove = isAtFeed machine (frameStarted s)
@@ -268,10 +184,10 @@ ended machine clock t m = (f, p')
           endsAt = t,
           waitedFor = waited s,
           isInCut = inCut,
-          positionAfter = Steps.plus (position p) (relative (counter m)),
-          pulses = made (counter m),
+          positionAfter = Steps.plus (position p) (FeedWindow.relative w),
+          pulses = FeedWindow.made w,
           asked = FramePath.askedFeed machine (frameStarted s) <$ path s,
-          feeds = if hasTime then Just (feedsOf mean (window m)) else Nothing,
+          feeds = if hasTime then Just (feedsOf mean w) else Nothing,
           highestFrequency = if hasTime then maximum hz else 0,
           frequencyJump =
             if hasTime && not (null (lastFrequencies p))
@@ -287,9 +203,11 @@ ended machine clock t m = (f, p')
           wasFeedMove = isFeedMove
         }
 
--- | Mean, least and highest feed, from the mean and the last window.
-feedsOf :: Double -> Window -> (Double, Double, Double)
-feedsOf mean w = if most w > 0 then (mean, least w, most w) else (mean, mean, mean)
+-- | Mean, least and highest feed, from the mean and the windows.
+feedsOf :: Double -> FeedWindow -> (Double, Double, Double)
+feedsOf mean w = case FeedWindow.range w of
+  Just (least, most) -> (mean, least, most)
+  Nothing -> (mean, mean, mean)
 
 -- | Total with one more frame.
 withFrame :: FrameMeasure -> RunTotal -> RunTotal

@@ -31,6 +31,7 @@ import Pulse.ControllerRun
     Tick,
   )
 import Pulse.ControllerRun qualified as ControllerRun
+import Pulse.FeedWindow qualified as FeedWindow
 import Pulse.FramePath (AskedFeed (..), FramePath (Arc, Line, from, to))
 import Pulse.FramePath qualified as FramePath
 import Pulse.PathDeviation (PathTrace)
@@ -103,6 +104,8 @@ stopFinding why = case why of
   Unreadable _ -> [StopsEarly why]
   TooFast {} -> [StopsEarly why]
   FeedHeld _ -> [StopsEarly why]
+  SwitchNotSet _ _ -> [StopsEarly why]
+  NotCompensated _ _ -> [StopsEarly why]
 
 -- Motions -----------------------------------------------------------------------------------------
 
@@ -307,7 +310,7 @@ feedLimit machine method p = case (method, p) of
     max 1.025 (pulseStep (max 1 (length (filter (/= 0) (Steps.toList d)) - 1)))
   (DifferentialAnalyser, _) -> max 1.025 (pulseStep 1)
   where
-    n = Measure.pulsesInWindow machine p
+    n = FeedWindow.pulsesInWindow machine p
     pulseStep lacking =
       if n <= lacking then 1 / 0 else fromIntegral n / fromIntegral (n - lacking)
 

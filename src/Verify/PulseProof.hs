@@ -154,6 +154,17 @@ stopReport why = case why of
           ]
       }
   FeedHeld n -> wrong "E0721" ("the controller stops before " <> frameWord n <> ": its feed is 0")
+  SwitchNotSet n k ->
+    wrong
+      "E0721"
+      ( "the controller stops before "
+          <> frameWord n
+          <> ": switch "
+          <> Decimal.whole k
+          <> " is not set"
+      )
+  NotCompensated n fault ->
+    wrong "E0721" ("the controller stops before " <> frameWord n <> ", which " <> fault)
   Unreadable damage ->
     (wrong "E0721" "the controller stops before a frame that it cannot read")
       { message = ["The reason: " <> Report.title (Damage.toReport damage) <> "."]

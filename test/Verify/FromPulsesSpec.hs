@@ -191,8 +191,8 @@ away :: Int -> ControllerRun -> ControllerRun
 away n = rewritten n (\stepped more -> stepped (out (out (out (back (back (back more)))))))
   where
     out = Stepped 0 aside
-    back = Stepped 0 (Steps.opposite aside)
-    aside = Steps.together (Steps.forward 0) (Steps.forward 1)
+    back = Stepped 0 (Steps.together (Steps.towards 0 (-1)) (Steps.towards 1 (-1)))
+    aside = Steps.together (Steps.towards 0 1) (Steps.towards 1 1)
 
 -- | Run whose pulses of the given number are rewritten. The function gets them, without the rest of
 -- the run, and the rest.
