@@ -13,6 +13,7 @@ import Data.Text.IO qualified as Text
 import Kernels (Peers (..))
 import Kernels qualified
 import Peer (Peer (Peer))
+import Peer qualified
 import Programs (Kind (..))
 import System.Environment (getArgs)
 import System.Exit (die)
@@ -30,11 +31,11 @@ main = do
       run page folder [(name, drop 1 value) | o <- options, let (name, value) = break (== '=') o]
     _ -> die "bench PAGE FOLDER NAME=COMMAND…"
 
--- | Runs the benchmark. The options are commands that are required (kernel, stages, partc, cost)
--- and optional (cavalier, chords, rs274), and the following. parts: the parts of the benchmark to
--- run. most: the largest number of segments and elements. seconds: the longest expected time of a
--- run of the stages. about: lines about the machine. before: the build folder of an earlier state,
--- which takes turns with this one.
+-- | Runs the benchmark. The options are commands that are required (kernel, stages, pulses, partc,
+-- cost) and optional (cavalier, chords, rs274), and the following. parts: the parts of the
+-- benchmark to run. most: the largest number of segments and elements. seconds: the longest
+-- expected time of a run of the stages. about: lines about the machine. before: the build folder
+-- of an earlier state, which takes turns with this one.
 run :: FilePath -> FilePath -> [(String, String)] -> IO ()
 run page folder options = do
   place "machine" (Text.unlines ["- " <> l | l <- Text.lines (Text.pack (option "about" ""))])
@@ -44,6 +45,8 @@ run page folder options = do
     let notes = if null broken then ["Nothing differs."] else map ("- " <>) broken
     place "differences" (Text.unlines notes)
   when ("stages" `elem` parts) $ Whole.staged tools most seconds >>= place "stages"
+  when ("controllers" `elem` parts) $
+    Peer.command 600 [option "pulses" "pulses"] >>= either (die . Text.unpack) (place "controllers")
   forM_ (lookup "before" options) $ \earlier -> do
     ratios <- Whole.besideBefore tools (earlier </> "build/stages/stages") most
     place "before" ratios
@@ -52,7 +55,7 @@ run page folder options = do
       >>= place "whole"
   where
     option name otherwise' = fromMaybe otherwise' (lookup name options)
-    parts = words (option "parts" "kernel stages whole")
+    parts = words (option "parts" "kernel stages controllers whole")
     most = fromMaybe 1000000 (readMaybe (option "most" ""))
     seconds = fromMaybe 20 (readMaybe (option "seconds" "")) :: Double
     place :: Text -> Text -> IO ()

@@ -6,8 +6,8 @@
 # A second argument is the folder in which an earlier state was built. Then the kernels and the stages
 # of both states take turns, there are no other peers, and the tables go to build/bench/before.md.
 #
-# PARTC_BENCH_MOST=10000 leaves out larger inputs. PARTC_BENCH_PARTS='kernel stages whole' chooses the
-# parts. PARTC_BENCH_SECONDS is the largest expected time, in seconds, of a run of the stages.
+# PARTC_BENCH_MOST=10000 leaves out larger inputs. PARTC_BENCH_PARTS='kernel stages controllers whole' chooses
+# the parts. PARTC_BENCH_SECONDS is the largest expected time, in seconds, of a run of the stages.
 set -euo pipefail
 
 dist=$1
@@ -49,9 +49,10 @@ options=(
   "about=$(about)"
   "kernel=$dist/build/kernel/kernel"
   "stages=$dist/build/stages/stages"
+  "pulses=$dist/build/pulses/pulses"
   "partc=$dist/build/partc/partc"
   "cost=python3 $root/bench/peers/cost.py"
-  "parts=${PARTC_BENCH_PARTS:-kernel stages whole}"
+  "parts=${PARTC_BENCH_PARTS:-kernel stages controllers whole}"
   "most=${PARTC_BENCH_MOST:-1000000}"
   "seconds=${PARTC_BENCH_SECONDS:-20}"
 )

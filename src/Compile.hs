@@ -23,6 +23,7 @@ module Compile
     Punched (..),
     prove,
     proveTape,
+    provePulses,
   )
 where
 
@@ -52,9 +53,12 @@ import Tape.Tape (Tape)
 import Toolpath.Error qualified as Toolpath
 import Toolpath.FromPart qualified as Toolpath
 import Toolpath.Toolpath (Toolpath, isCompensated, withoutCuts)
+import Verify.FromPulses qualified as FromPulses
 import Verify.FromTape qualified as Verify
 import Verify.Proof (Proof)
 import Verify.Proof qualified as Proof
+import Verify.PulseProof (PulseProof)
+import Verify.PulseProof qualified as PulseProof
 
 -- | Compiles a program to one tape for each machine of the job. If the program has an error, no
 -- tape is made.
@@ -173,3 +177,12 @@ proveTape part Compiled {machine, toolpath, punched} frames =
       path <- ifSound . Toolpath.toToolpath =<< ContourStart.moved starts =<< part
       Punched {program} <- ifSound (punch machine path)
       pure (withoutCuts path, program)
+
+-- | Runs a tape on the controller of the machine and compares its pulses with the motions of the
+-- frames (Tape → Pulse → Verify). The errors of the result are the findings. 'Nothing' if the
+-- machine's controller is not described, or if its model makes no pulses.
+provePulses :: Compiled -> Tape -> Maybe (Result Report Report PulseProof)
+provePulses Compiled {machine, punched} tape = judged <$> FromPulses.prove machine begin tape
+  where
+    begin = Frame.start (program punched)
+    judged proof = failing (PulseProof.toReports machine proof) proof

@@ -130,7 +130,8 @@ toReport err = case err of
       }
   NoPulses machine ->
     (wrong "E0815" InFile ("the model of the controller of " <> machine <> " makes no pulses"))
-      { hints = ["Leave --pulses and --speed out: the times of the frames are known."]
+      { hints =
+          ["Leave --pulses and --speed out: the model knows only the times of the frames."]
       }
   NoSuchOverride n positions ->
     ( wrong

@@ -11,6 +11,7 @@ module Cli.NodeTable
 where
 
 import Base.Decimal qualified as Decimal
+import Base.LazyList qualified as LazyList
 import Base.Name (Name (..))
 import Base.Quantity (Mm (..), Rad (..), Seconds (..), minus, times, total, travelTime)
 import Base.Region (Located (..))
@@ -32,6 +33,9 @@ import Machine.Machine (Machine)
 import Machine.Machine qualified as Machine
 import Part.Part (Drilling, Milling, Pace (..), Part)
 import Part.Part qualified as Part
+import Pulse.Controller qualified as Controller
+import Pulse.ControllerRun (StopReason (..))
+import Pulse.RunMeasure (RunTotal (..))
 import Tape.Tape qualified as Tape
 import Toolpath.Toolpath (Block (..), Move (..), Pass (..), Toolpath, heights, pace)
 import Toolpath.Toolpath qualified as Toolpath
@@ -206,8 +210,9 @@ holeTable drillings =
     | not (null drillings)
   ]
 
--- | The length of all linking moves, the length and the time of the whole toolpath, the count of
--- frames, and the size of the tape. Moves for the drilling of holes count as linking moves.
+-- | The length of all linking moves, the length and the time of the whole toolpath, the time that
+-- the controller takes, the count of frames, and the size of the tape. Moves for the drilling of
+-- holes count as linking moves.
 summary :: Maybe (Machine, Punched) -> Toolpath -> Text
 summary punched path =
   Table.columns
@@ -216,6 +221,7 @@ summary punched path =
         ["total length of the path", fixed3 (lengthOf everything), "mm"],
         ["total time", seconds (total (map (moveTime machine) everything)), "s"]
       ]
+        <> maybe [] (uncurry controllerRow) punched
         <> maybe [] (uncurry tapeRows) punched
     )
   where
@@ -223,6 +229,24 @@ summary punched path =
     everything = concatMap Toolpath.moves (Toolpath.blocks path)
     cutting = concat [moves | (_, _, moves) <- cutsOf path <> clearingsOf path]
     lengthOf = total . map moveLength
+
+-- | The time that the model of the controller takes for the tape, with its ramps and its waits for
+-- the reader. No row if the description of the machine has no controller.
+controllerRow :: Machine -> Punched -> [[Text]]
+controllerRow machine Punched {program, tape} =
+  [ ["time of the controller"] <> timeOrStop (LazyList.end list) clock
+    | Just list <- [Controller.measured machine 1 (Frame.start program) tape],
+      Just clock <- [Controller.ticksPerSecond machine]
+  ]
+  where
+    timeOrStop whole clock = case stopReason whole of
+      TooFast n _ _ -> ["", "stops before frame " <> Decimal.whole n]
+      FeedHeld n -> ["", "stops before frame " <> Decimal.whole n]
+      SwitchNotSet n _ -> ["", "stops before frame " <> Decimal.whole n]
+      NotCompensated n _ -> ["", "stops before frame " <> Decimal.whole n]
+      Unreadable _ -> ["", "stops before a frame that cannot be read"]
+      TapeEnds -> [Decimal.fixed 1 (fromIntegral (totalTicks whole) / fromIntegral clock), "s"]
+      ProgramEnds -> [Decimal.fixed 1 (fromIntegral (totalTicks whole) / fromIntegral clock), "s"]
 
 tapeRows :: Machine -> Punched -> [[Text]]
 tapeRows machine Punched {program, tape} =

@@ -38,8 +38,8 @@ data Subcommand
   | -- | the programs
     Check (NonEmpty FilePath)
   | -- | the program, the machine, the file of the tape; without a file, the tape that the compiler
-    -- makes of the program is proven
-    Verify FilePath (Maybe Text) (Maybe FilePath)
+    -- makes of the program is proven; true to prove the pulses of the controller, too
+    Verify FilePath (Maybe Text) (Maybe FilePath) Bool
   | -- | the program, the machine, true for JSON lines instead of a table
     Frames FilePath (Maybe Text) Bool
   | -- | the program, the machine
@@ -146,7 +146,7 @@ commands =
         "verify"
         "Prove a tape against its program"
         "partc verify flange.part flange.tape"
-        (Verify <$> program <*> optional target <*> optional tape),
+        (Verify <$> program <*> optional target <*> optional tape <*> pulsesFlag),
       entry
         "frames"
         "List the frames of a program"
@@ -259,12 +259,14 @@ runOptions =
   where
     frameOption name description =
       Opt.option Opt.auto (Opt.long name <> Opt.metavar "FRAME" <> Opt.help description)
-    programOrTape =
-      Opt.strArgument
-        ( Opt.metavar "FILE"
-            <> Opt.help "A part program, an input sheet, or a tape; - for a tape on standard input"
-            <> Opt.action "file"
-        )
+
+programOrTape :: Parser FilePath
+programOrTape =
+  Opt.strArgument
+    ( Opt.metavar "FILE"
+        <> Opt.help "A part program, an input sheet, or a tape; - for a tape on standard input"
+        <> Opt.action "file"
+    )
 
 -- | The form in which a run is written.
 runFormOption :: Parser RunForm
@@ -313,6 +315,10 @@ switchRadius = Opt.maybeReader $ \text -> case break (== '=') text of
 
 jsonFlag :: Parser Bool
 jsonFlag = Opt.switch (Opt.long "json" <> Opt.help "One JSON object a line")
+
+pulsesFlag :: Parser Bool
+pulsesFlag =
+  Opt.switch (Opt.long "pulses" <> Opt.help "Prove the pulses of the machine's controller, too")
 
 textFlag :: Parser Bool
 textFlag =

@@ -36,6 +36,7 @@ import Cli.Output qualified as Output
 import Cli.OutputFile (writeTapes, writeText)
 import Cli.Progress qualified as Progress
 import Cli.ProofTable qualified as ProofTable
+import Cli.PulseProofTable qualified as PulseProofTable
 import Cli.RunCommand qualified as RunCommand
 import Compile (Compiled (Compiled), Punched (..))
 import Compile qualified
@@ -52,7 +53,7 @@ import Lsp.Server (Host (Host, input, load))
 import Lsp.Server qualified as Lsp
 import Lsp.Session (Ending (..))
 import Machine.BuiltIn qualified as BuiltIn
-import Machine.Machine (Machine)
+import Machine.Machine (Machine, MachineName (..))
 import Machine.Machine qualified as Machine
 import Project.Error qualified as Project
 import Project.Job (Job (verification), Verification (..))
@@ -71,6 +72,7 @@ import Sheet.Unsupported qualified as Unsupported
 import System.IO (stdin, stdout)
 import Tape.Punch qualified as Tape
 import Tape.Tape (Tape (..))
+import Verify.PulseProof (PulseProof)
 
 -- | Runs a subcommand.
 run :: Invocation -> IO Exit
@@ -84,7 +86,7 @@ perform :: Reporter -> Subcommand -> IO Exit
 perform reporter command = case command of
   Compile options -> compile reporter options
   Check files -> maximum <$> traverse (check reporter) (NonEmpty.toList files)
-  Verify file target tape -> verify reporter file target tape
+  Verify file target tape withPulses -> verify reporter file target tape withPulses
   Frames file target asJson -> frames reporter file target asJson
   Report file target -> report reporter file target
   Import file output -> importSheet reporter file output
@@ -128,23 +130,41 @@ check reporter file = withInput reporter file [] $ \given ->
   settled reporter given (Snapshot.checkWith (values given) (loaded given)) (const (pure Done))
 
 -- | Proves the tape in @tapeFile@ against the program in @file@. Without @tapeFile@ it proves the
--- tape that the compiler makes of the program.
-verify :: Reporter -> FilePath -> Maybe Text -> Maybe FilePath -> IO Exit
-verify reporter file target tapeFile =
+-- tape that the compiler makes of the program. If @withPulses@ is true, it also proves the pulses
+-- of the machine's controller.
+verify :: Reporter -> FilePath -> Maybe Text -> Maybe FilePath -> Bool -> IO Exit
+verify reporter file target tapeFile withPulses =
   withInput reporter file (maybeToList target) $ \given ->
     settled reporter given (onFirstMachine target given) $ \compiled -> do
       foreignTape <- traverse readBytes tapeFile
       case maybe (Right (tape (Compile.punched compiled))) (fmap Tape) foreignTape of
         Left e -> failWith reporter (maybe "" displayName tapeFile) e
-        Right rows -> verifyTape reporter given (tapeName given) compiled rows
+        Right rows -> withPulseProof given compiled rows $ \pulses ->
+          verifyTape reporter given (tapeName given) compiled rows pulses
   where
     tapeName given = maybe (name given) displayName tapeFile
+    withPulseProof given compiled rows continue
+      | not withPulses = continue Nothing
+      | otherwise = case Compile.provePulses compiled rows of
+        Just pulses -> continue (Just pulses)
+        Nothing ->
+          let machine = Compile.machine compiled
+              MachineName machineName = Machine.name machine
+              noPulses = maybe NoController (const NoPulses) (Machine.controller machine)
+           in failWith reporter (name given) (noPulses machineName)
 
--- | Reads the frames from a tape, compares them with the part and prints the proof. @tapeName@ is
--- the tape's name in reports; @compiled@ has the toolpath and the frames that the tape should
--- have.
-verifyTape :: Reporter -> Input -> Text -> Compiled -> Tape -> IO Exit
-verifyTape reporter given tapeName compiled rows =
+-- | Reads the frames from a tape, compares them with the part and prints the proof, and the proof
+-- of the pulses if there is one. @tapeName@ is the tape's name in reports; @compiled@ has the
+-- toolpath and the frames that the tape should have.
+verifyTape ::
+  Reporter ->
+  Input ->
+  Text ->
+  Compiled ->
+  Tape ->
+  Maybe (Result Report Report PulseProof) ->
+  IO Exit
+verifyTape reporter given tapeName compiled rows pulses =
   case Tape.readExpected machine (Frame.start (program punched)) (framesOf punched) rows of
     Left damage ->
       Failed <$ Output.showReports reporter tapeName (source given) [Tape.toReport damage]
@@ -152,11 +172,19 @@ verifyTape reporter given tapeName compiled rows =
       let result = Compile.proveTape part compiled read'
       Progress.during ("proving " <> tapeName) (evaluated result)
       exit <- maybe (pure Done) (printResult reporter . ProofTable.proof machine) (output result)
-      _ <- Output.showReports reporter (name given) (source given) (errors result)
-      pure (if null (errors result) then exit else Disproven)
+      exitOfPulses <- maybe (pure Done) printPulses pulses
+      let findings = errors result <> maybe [] errors pulses
+      _ <- Output.showReports reporter (name given) (source given) findings
+      pure (if null findings then max exit exitOfPulses else Disproven)
   where
     Compiled {Compile.machine, Compile.punched} = compiled
     part = snd <$> output (Compile.evaluate (values given) (loaded given))
+    printPulses result = do
+      Progress.during ("running " <> tapeName) (evaluated result)
+      maybe
+        (pure Done)
+        (printResult reporter . ("\n" <>) . PulseProofTable.pulseProof)
+        (output result)
 
 -- | Prints the frames of a program: as JSON lines if @asJson@ is true, otherwise as a table.
 frames :: Reporter -> FilePath -> Maybe Text -> Bool -> IO Exit

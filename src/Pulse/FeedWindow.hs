@@ -14,6 +14,7 @@ module Pulse.FeedWindow
     latest,
     range,
     speed,
+    pulsesInWindow,
   )
 where
 
@@ -56,6 +57,10 @@ data Ruler = Ruler
     perCount :: Double,
     pulseLength :: Double
   }
+
+-- | Length of a window on a path, as a count of pulses of the leading axis, or of cycles on an arc.
+pulsesInWindow :: Machine -> FramePath -> Int
+pulsesInWindow machine = windowCount . rulerOf machine
 
 -- | First window of a frame that begins at a tick, with the path of the frame.
 begin :: Machine -> Tick -> Maybe FramePath -> FeedWindow

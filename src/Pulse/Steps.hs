@@ -4,10 +4,7 @@
 module Pulse.Steps
   ( Steps,
     none,
-    forward,
-    backward,
     together,
-    opposite,
     count,
     onAxis,
     towards,
@@ -50,10 +47,6 @@ towards k n = case compare n 0 of
 -- | Pulses of both arguments, which have no axis in common.
 together :: Steps -> Steps -> Steps
 together (Steps a) (Steps b) = Steps (a .|. b)
-
--- | Pulses on the same axes in the opposite directions.
-opposite :: Steps -> Steps
-opposite (Steps a) = Steps (((a .&. 0x155) `shiftL` 1) .|. ((a .&. 0x2aa) `shiftR` 1))
 
 -- | Count of pulses.
 count :: Steps -> Int

@@ -84,7 +84,10 @@ raisedElsewhere =
         "E0715",
         "E0716",
         "E0717",
-        "E0718"
+        "E0718",
+        "E0719",
+        "E0720",
+        "E0721"
       ]
     ),
     ( "files and the command line",

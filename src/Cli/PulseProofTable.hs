@@ -1,0 +1,71 @@
+-- | The proof of the pulses of a tape as a table and a verdict.
+module Cli.PulseProofTable
+  ( pulseProof,
+  )
+where
+
+import Base.Decimal qualified as Decimal
+import Base.Quantity (Feed (..), Seconds (..))
+import Cli.Table (Align (..))
+import Cli.Table qualified as Table
+import Data.Text (Text)
+import Verify.PulseProof (FeedWitness (..), PulseProof, PulseWitness (..))
+import Verify.PulseProof qualified as Proof
+
+-- | The proof as text. Each row has a measure, the value that is allowed or asked beside it, and
+-- the number of the frame where it occurs. Deviations are in pulses, feeds in mm/min, frequencies
+-- in pulses per second, times in seconds.
+pulseProof :: PulseProof -> Text
+pulseProof p =
+  Table.columns
+    [ToLeft, ToRight, ToRight, ToRight]
+    ( ["pulses", "", "allowed", "frame"] :
+      [ deviationRow "furthest from a line" (Proof.onLines p),
+        deviationRow "furthest from an arc" (Proof.onArcs p)
+      ]
+        <> [["feed mm/min", "", "asked", ""]]
+        <> [ feedRow "mean of a frame, furthest off" (Proof.meanFeed p),
+             feedRow "least over a millimetre" (Proof.leastFeed p),
+             feedRow "highest over a millimetre" (Proof.highestFeed p)
+           ]
+        <> [["axes, pulses a second", "", "", ""]]
+        <> [ frequencyRow "highest mean in a frame" (Proof.highestFrequency p),
+             frequencyRow "largest jump between frames" (Proof.largestJump p)
+           ]
+    )
+    <> "\n"
+    <> Table.columns
+      [ToLeft, ToRight, ToLeft]
+      [ ["pulses on all axes", Decimal.whole (Proof.pulseCount p), ""],
+        [ "waits between two feed moves",
+          Decimal.whole (Proof.waits p),
+          maybe "" (("the first before frame " <>) . Decimal.whole) (Proof.firstWait p)
+        ],
+        ["all waits for the reader", seconds (Proof.waitTime p), "s"],
+        ["time of the controller", seconds (Proof.runTime p), "s"],
+        ["length by feed", seconds (Proof.formulaTime p), "s"]
+      ]
+    <> "\n"
+    <> Table.columns
+      [ToLeft, ToLeft]
+      [["verdict on the pulses", if Proof.isSound p then "proven" else "WRONG"]]
+  where
+    seconds (Seconds s) = Decimal.fixed 3 s
+
+deviationRow :: Text -> Maybe PulseWitness -> [Text]
+deviationRow name found = case found of
+  Nothing -> [name, "", "", ""]
+  Just w ->
+    [name, Decimal.fixed 4 (amount w), Decimal.fixed 4 (promised w), Decimal.whole (frame w)]
+
+feedRow :: Text -> Maybe FeedWitness -> [Text]
+feedRow name found = case found of
+  Nothing -> [name, "", "", ""]
+  Just w -> [name, feed (measured w), feed (wanted w), Decimal.whole (feedFrame w)]
+  where
+    feed (Feed v) = Decimal.fixed 2 v
+
+frequencyRow :: Text -> Maybe (Int, Double) -> [Text]
+frequencyRow name found = case found of
+  Nothing -> [name, "", "", ""]
+  Just (n, hz) -> [name, Decimal.fixed 1 hz, "", Decimal.whole n]
