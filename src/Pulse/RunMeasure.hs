@@ -10,6 +10,7 @@ module Pulse.RunMeasure
     JobLoad (..),
     measure,
     pulsesInWindow,
+    isAtFeed,
   )
 where
 
