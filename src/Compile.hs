@@ -27,7 +27,16 @@ module Compile
   )
 where
 
-import Base.Result (Result (..), failed, failing, fromEither, ifSound, mapErrors, thenSound)
+import Base.Result
+  ( Result (..),
+    failed,
+    failing,
+    fromEither,
+    ifSound,
+    mapErrors,
+    thenSound,
+    warned,
+  )
 import Checked.Error qualified as Checked
 import Checked.FromSurface qualified as Checked
 import Checked.Syntax qualified as Checked
@@ -45,6 +54,8 @@ import Part.Part (Part)
 import Project.Error qualified as Project
 import Project.Job (Job (..), Verification (..))
 import Project.LoadedProgram (LoadedProgram (surface))
+import Pulse.FrameCompensation qualified as FrameCompensation
+import Pulse.ReaderDwell qualified as ReaderDwell
 import Report.Report (Report)
 import Surface.Error qualified as Surface
 import Surface.Parameter qualified as Surface
@@ -133,9 +144,23 @@ makeTape verification path machine =
       Verified -> do
         frames <- mapErrors id Tape.toReport (fromEither readBack)
         Just <$> prove machine toolpath program frames
+    warned (readerWarning machine punched)
     pure Compiled {machine, toolpath, punched, proof}
   where
     toolpath = withoutCuts path
+
+-- | Warning of frames within a cut that the machine does not read in time (Tape → Pulse).
+readerWarning :: Machine -> Punched -> [Report]
+readerWarning machine Punched {program, tape} =
+  [ Frame.warningReport machine (Frame.ReaderTooSlow (Frame.origin planned) n (length late))
+    | n : _ <- [late],
+      planned <- take 1 (drop (n - 1) (Frame.plannedFrames program))
+  ]
+  where
+    late = ReaderDwell.dwells machine (FrameCompensation.prepared machine radii begin frames)
+    radii = FrameCompensation.switchRadii machine (Frame.plannedFrames program)
+    begin = Frame.start program
+    frames = Tape.readInTurn machine begin tape
 
 -- | The frames of a toolpath for one machine, and the tape that contains these frames.
 data Punched = Punched {program :: Frame.FrameProgram, tape :: Tape}

@@ -196,7 +196,7 @@ totalLines machine clock total =
   where
     share t = fromIntegral t / fromIntegral (max 1 (totalTicks total))
 
--- | The same as a JSON object.
+-- | JSON object with the times, pulses and loads of the whole tape.
 totalJson :: Machine -> Int -> RunTotal -> Builder
 totalJson machine clock total =
   jsonLine

@@ -72,6 +72,9 @@ data Warning
     SpindleSpeedDiffers Region Double Double
   | -- | a spindle command without the speed that its word needs
     SpindleSpeedMissing Region
+  | -- | frames between two feed moves that are not read in time, so that the machine stands still:
+    -- the number of the first one, whose region this is, and how many there are
+    ReaderTooSlow Region Int Int
   deriving stock (Eq, Ord, Show)
 
 -- | Kind of a command. Every command that does not concern the spindle, the coolant or the tool is
@@ -310,6 +313,34 @@ warningReport machine warning = case warning of
     )
       { message = ["The tape says nothing of the spindle here."],
         hints = ["Give the turns a minute."]
+      }
+  ReaderTooSlow region n count ->
+    ( report
+        Report.Warning
+        "W0507"
+        (InSource region)
+        (machineName machine <> " stands still within a cut: a frame is read late")
+    )
+      { message =
+          [ "The frame before frame "
+              <> Decimal.whole n
+              <> " takes less time than the reading of frame "
+              <> Decimal.whole n
+              <> ".",
+            if count == 1
+              then "This is the only such frame. The cutter may leave a mark there."
+              else
+                "There are "
+                  <> Decimal.whole count
+                  <> " such frames. The cutter may leave a mark at each."
+          ],
+        hints =
+          [ "Longer frames help: allow a larger tolerance"
+              <> ( if Machine.arcs machine == Machine.NoArcs
+                     then ", or take a machine with arcs."
+                     else "."
+                 )
+          ]
       }
   where
     subjectOf kind = case kind of

@@ -1,4 +1,4 @@
--- | What a controller does with a tape, event by event.
+-- | Run of a tape on a controller: a list of events.
 --
 -- A run is a lazy list: its next event is computed when it is asked for, from the state of the
 -- controller, so a run of any length needs little memory. Ticks are those of the controller's

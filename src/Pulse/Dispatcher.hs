@@ -47,7 +47,7 @@ data Dispatcher a j = Dispatcher
 -- | Job that waits: its priority, its length in ticks, the tick of its request, and what it does.
 data Waiting j = Waiting {urgency :: Int, ticks :: Int, requested :: Int, work :: j}
 
--- | What happens next, with the state after it.
+-- | Event of the dispatcher, with the state after it.
 data Happening a j
   = -- | U overflows at this tick, and an interpolation cycle runs.
     Overflowed Int (Dispatcher a j)
@@ -80,7 +80,7 @@ insertBy' before item items = case items of
 withFeed :: Int -> Dispatcher a j -> Dispatcher a j
 withFeed v d = d {integrator = (integrator d) {cellV = v}}
 
--- | What happens next. The first argument is the length of an interpolation cycle in ticks.
+-- | Next event. The first argument is the length of an interpolation cycle in ticks.
 next :: Int -> Dispatcher a j -> Happening a j
 next cycleTicks d
   | cellU c >= limit c = overflowed (tick d) 0

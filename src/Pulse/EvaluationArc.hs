@@ -46,7 +46,7 @@ data StepRule
     EightDirections
   deriving stock (Eq, Show)
 
--- | What remains the same along an arc: the rule, true for a clockwise arc, and the position of
+-- | Constants of an arc: the rule, true for a clockwise arc, and the position of
 -- the end as 'p' and 'q' of its quadrant.
 data Plan = Plan {rule :: StepRule, isMirrored :: Bool, endP :: Int, endQ :: Int, radius2 :: Int}
 

@@ -107,7 +107,7 @@ data Buffer
 -- next row from 1, and for each row, true for the last row of a word.
 data Reading = Reading Tick Int [Bool]
 
--- | What arrives at a tick.
+-- | Arrival at a tick.
 data Arrival
   = -- | the next row of the tape
     Row

@@ -13,6 +13,8 @@
 -- frame, the controller waits. A controller without a reader never waits.
 module Pulse.StepRun
   ( run,
+    rateOf,
+    cellCapacity,
   )
 where
 
@@ -149,7 +151,7 @@ inFrame setup rest f path more = case path of
         (Interpolator.start (interpolation (control setup)) p)
         here
     where
-      (value, perFeed) = rateOf setup p f
+      (value, perFeed) = rateOf (machine setup) (control setup) p f
       asked = value
       frequency = value * correction setup * perFeed
       largest = fromIntegral ticks / perFeed / correction setup
@@ -160,17 +162,17 @@ inFrame setup rest f path more = case path of
       between setup rest {number = number rest + 1, now = t, clock = c, feed = v} more
 
 -- | Feed that a frame asks, and the count of cycles per second for each unit of it.
-rateOf :: Setup -> FramePath -> Frame -> (Double, Double)
-rateOf setup path f = case FramePath.askedFeed (machine setup) f of
+rateOf :: Machine -> StepControl -> FramePath -> Frame -> (Double, Double)
+rateOf machine control path f = case FramePath.askedFeed machine f of
   OfLeadingAxis hz -> (hz, 1)
   Along v -> (v, 1 / 60 * cyclesPerLength)
   where
-    cyclesPerLength = case (path, interpolation (control setup)) of
+    cyclesPerLength = case (path, interpolation control) of
       (Line d, DifferentialAnalyser) -> fromIntegral (FramePath.leadingPulses d) / long
       (Line d, EvaluationFunction) -> fromIntegral (FramePath.allPulses d) / long
       (Arc {}, _) -> 4 / pi / pulse
-    long = FramePath.pathLength (machine setup) path
-    Mm pulse = Machine.resolutionOf (machine setup) X
+    long = FramePath.pathLength machine path
+    Mm pulse = Machine.resolutionOf machine X
 
 -- | Change of the feed within a frame: the feed at its beginning, and the change per step of the
 -- ramp, with the ticks of a step. The change is 0 if the feed jumps at once.
@@ -220,6 +222,7 @@ ramping ::
   Profile -> (Moment -> ControllerRun) -> Interpolator -> Moment -> Tick -> ControllerRun
 ramping profile after interpolator m changeAt
   | feedNow m == target profile = steady after (feedNow m) interpolator (at m) (integrator m)
+  | Interpolator.isFinished interpolator = FrameEnds (at m) (after m)
   | changeAt < at m + n =
     let c = FeedIntegrator.pass (changeAt - at m) (integrator m)
         passed = m {at = changeAt, integrator = c}

@@ -234,6 +234,22 @@ spec = do
         (code, out, err) <- partc ["decode", "-t", "lkp-01f", folder </> "cut.tape"]
         (code, out) `shouldBe` (ExitFailure 1, "")
         err `shouldSatisfy` isInfixOf "the tape ends within a frame"
+    it "proves the pulses of a tape, and disproves a controller that stops with status 3" $
+      inFolder $ \folder -> do
+        (good, table, _) <- partc ["verify", "examples/flange.part", "--pulses"]
+        good `shouldBe` ExitSuccess
+        table `shouldSatisfy` isInfixOf "verdict on the pulses  proven"
+        (_, text, _) <- partc ["machines", "n55", "--text"]
+        let slow = Text.replace "clock 80000 Hz" "clock 1000 Hz" (Text.pack text)
+            machine = folder </> "slow.machine"
+        ByteString.writeFile machine (Encoding.encodeUtf8 slow)
+        (bad, table', err) <- partc ["verify", "examples/flange.part", "-t", machine, "--pulses"]
+        bad `shouldBe` ExitFailure 3
+        table' `shouldSatisfy` isInfixOf "verdict on the pulses  WRONG"
+        err `shouldSatisfy` isInfixOf "error[E0721]: the controller stops before frame 3"
+        (none, _, err') <- partc ["verify", "examples/flange.part", "-t", "iso6983", "--pulses"]
+        none `shouldBe` ExitFailure 1
+        err' `shouldSatisfy` isInfixOf "error[E0815]"
     it "prints the table that the README shows" $ do
       (_, table, _) <- partc ["verify", "examples/flange.part"]
       page <- readFile "README.md"
