@@ -18,6 +18,7 @@ import Machine.BuiltIn qualified as BuiltIn
 import Machine.Controller (Controller (..), IntegratorControl (..))
 import Machine.Machine (FeedCode (..), Machine, MachineName (..))
 import Machine.Machine qualified as Machine
+import Pulse.Controller (Console (correction))
 import Pulse.Controller qualified as Controller
 import Pulse.ControllerRun (ControllerRun (..))
 import Pulse.Steps qualified as Steps
@@ -112,7 +113,7 @@ measured machine t = do
   runs <- forM [1, 1.000001, 1.000002] $ \correction -> do
     performGC
     begin <- getCPUTime
-    n <- evaluate (maybe 0 countPulses (Controller.run machine correction 0 t))
+    n <- evaluate (maybe 0 countPulses (Controller.run machine Controller.neutral {correction} 0 t))
     end <- getCPUTime
     pure (fromIntegral (end - begin) / 1e12 :: Double, n)
   pure $ case sort runs of

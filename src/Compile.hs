@@ -54,6 +54,8 @@ import Part.Part (Part)
 import Project.Error qualified as Project
 import Project.Job (Job (..), Verification (..))
 import Project.LoadedProgram (LoadedProgram (surface))
+import Pulse.Controller (Console (..))
+import Pulse.Controller qualified as Controller
 import Pulse.FrameCompensation qualified as FrameCompensation
 import Pulse.ReaderDwell qualified as ReaderDwell
 import Report.Report (Report)
@@ -158,7 +160,7 @@ readerWarning machine Punched {program, tape} =
   ]
   where
     late = ReaderDwell.dwells machine (FrameCompensation.prepared machine radii begin frames)
-    radii = FrameCompensation.switchRadii machine (Frame.plannedFrames program)
+    Console {radii} = Controller.consoleFor machine (Frame.plannedFrames program)
     begin = Frame.start program
     frames = Tape.readInTurn machine begin tape
 
@@ -207,7 +209,9 @@ proveTape part Compiled {machine, toolpath, punched} frames =
 -- frames (Tape → Pulse → Verify). The errors of the result are the findings. 'Nothing' if the
 -- machine's controller is not described, or if its model makes no pulses.
 provePulses :: Compiled -> Tape -> Maybe (Result Report Report PulseProof)
-provePulses Compiled {machine, punched} tape = judged <$> FromPulses.prove machine begin tape
+provePulses Compiled {machine, punched} tape =
+  judged <$> FromPulses.prove machine console begin tape
   where
+    console = Controller.consoleFor machine (Frame.plannedFrames (program punched))
     begin = Frame.start (program punched)
     judged proof = failing (PulseProof.toReports machine proof) proof

@@ -3,7 +3,8 @@
 -- A block @```console@ contains commands, each after @$@, and their output: reports first, then
 -- results. The commands run in a folder with one file: the last program above them that has a
 -- @part@ statement (@```part@ or @```part wrong@), in a file named for the part, or the last input
--- sheet (@```sheet NAME@). With PARTC_RECORD set, the output is written into the document.
+-- sheet (@```sheet NAME@). Beside it lie the tapes of @examples@ that the commands name. With
+-- PARTC_RECORD set, the output is written into the document.
 module SessionsSpec (spec) where
 
 import Blocks qualified
@@ -15,8 +16,9 @@ import Data.Text (Text)
 import Data.Text qualified as Text
 import Data.Text.Encoding qualified as Encoding
 import Files (readText)
+import System.Directory (copyFile, listDirectory)
 import System.Environment (lookupEnv)
-import System.FilePath ((</>))
+import System.FilePath (takeExtension, (</>))
 import System.Process (CreateProcess (cwd), proc, readCreateProcessWithExitCode)
 import Test.Hspec
 
@@ -70,6 +72,9 @@ rerun section = case section of
   Plain text -> pure text
   Session (name, program) body -> inFolder $ \folder -> do
     ByteString.writeFile (folder </> name) (Encoding.encodeUtf8 program)
+    files <- listDirectory "examples"
+    let isNamed file = takeExtension file == ".tape" && Text.isInfixOf (Text.pack file) body
+    forM_ (filter isNamed files) $ \file -> copyFile ("examples" </> file) (folder </> file)
     shown <-
       traverse (run folder) [c | line <- Text.lines body, Just c <- [Text.stripPrefix "$ " line]]
     pure ("console\n" <> Text.concat shown)

@@ -12,6 +12,7 @@ import Data.Text (Text)
 import Data.Text qualified as Text
 import Machine.Controller
 import Machine.FrameLayout (CommandName (..))
+import Pulse.IntegratorFeed qualified as IntegratorFeed
 
 -- | Rows of two columns: a property of the controller, and its value.
 controllerRows :: Controller -> [[Text]]
@@ -72,9 +73,23 @@ integratorRows c =
              <> Decimal.whole (priority j)
              <> ", "
              <> requestText (request j)
+             <> waitText wait
          ]
-         | j <- jobs c
+         | (j, wait) <- IntegratorFeed.waitBounds c shownFrequency
        ]
+  where
+    waitText wait = case wait of
+      Nothing -> "; has no time at " <> number shownFrequency <> " pulses a second"
+      Just t ->
+        "; waits at most "
+          <> number (1000 * fromIntegral t / fromIntegral (clock c))
+          <> " ms at "
+          <> number shownFrequency
+          <> " pulses a second"
+
+-- | Frequency of the leading axis for which the waits of the jobs are shown.
+shownFrequency :: Double
+shownFrequency = 1000
 
 readerRows :: TapeReader -> [[Text]]
 readerRows r =

@@ -235,10 +235,11 @@ summary punched path =
 controllerRow :: Machine -> Punched -> [[Text]]
 controllerRow machine Punched {program, tape} =
   [ ["time of the controller"] <> timeOrStop (LazyList.end list) clock
-    | Just list <- [Controller.measured machine 1 (Frame.start program) tape],
+    | Just list <- [Controller.measured machine console (Frame.start program) tape],
       Just clock <- [Controller.ticksPerSecond machine]
   ]
   where
+    console = Controller.consoleFor machine (Frame.plannedFrames program)
     timeOrStop whole clock = case stopReason whole of
       TooFast n _ _ -> ["", "stops before frame " <> Decimal.whole n]
       FeedHeld n -> ["", "stops before frame " <> Decimal.whole n]

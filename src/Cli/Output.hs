@@ -12,6 +12,7 @@ module Cli.Output
     result,
     resultBytes,
     resultStream,
+    collectingOften,
     readBytes,
     writeFileWhole,
   )
@@ -21,8 +22,9 @@ import Base.Decimal qualified as Decimal
 import Base.LazyList (LazyList)
 import Base.LazyList qualified as LazyList
 import Base.Region (Source)
-import Control.Exception (onException, try)
-import Control.Monad (when)
+import Control.Concurrent (forkIO, killThread, threadDelay)
+import Control.Exception (bracket, onException, try)
+import Control.Monad (forever)
 import Data.ByteString (ByteString)
 import Data.ByteString qualified as ByteString
 import Data.ByteString.Builder (Builder)
@@ -211,24 +213,24 @@ resultBytes bytes = either judge Right <$> try (ByteString.hPut stdout bytes *> 
     Errno pipe = ePIPE
 
 -- | Writes the parts of a stream to standard output, one after the other, and gives the value at
--- its end. 'Left' is the reason of a failure. Nothing takes the place of the value if the reader
--- of a pipe has closed it.
---
--- After the given count of parts, garbage is collected. So memory stays small even if the runtime
--- of the program is set to collect rarely.
-resultStream :: Int -> LazyList e Builder -> IO (Either Text (Maybe e))
-resultStream partsToCollection = go (0 :: Int)
+-- its end. 'Left' is the reason of a failure. Nothing takes the place of the value if the reader of
+-- a pipe has closed it.
+resultStream :: LazyList e Builder -> IO (Either Text (Maybe e))
+resultStream list = case list of
+  LazyList.End e -> either judge (const (Right (Just e))) <$> try (hFlush stdout)
+  LazyList.Next part more ->
+    try (Builder.hPutBuilder stdout part) >>= either (pure . judge) (const (resultStream more))
   where
-    go n list = case list of
-      LazyList.End e -> either judge (const (Right (Just e))) <$> try (hFlush stdout)
-      LazyList.Next part more -> do
-        when (n `mod` partsToCollection == partsToCollection - 1) performMajorGC
-        written <- try (Builder.hPutBuilder stdout part)
-        either (pure . judge) (const (go (n + 1) more)) written
     judge e
       | ioe_errno e == Just pipe = Right Nothing
       | otherwise = Left (ioProblem e)
     Errno pipe = ePIPE
+
+-- | Runs an action while another thread collects garbage again and again. So a stream needs little
+-- memory even though the runtime of the program is set to collect rarely.
+collectingOften :: IO a -> IO a
+collectingOften action =
+  bracket (forkIO (forever (threadDelay 30000 *> performMajorGC))) killThread (const action)
 
 -- | The bytes of a file, or of standard input for @-@; or the reason why they cannot be read. A
 -- file of more than 'mostBytes' is refused, also one without an end, such as a device.

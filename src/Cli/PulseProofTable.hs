@@ -8,7 +8,10 @@ import Base.Decimal qualified as Decimal
 import Base.Quantity (Feed (..), Seconds (..))
 import Cli.Table (Align (..))
 import Cli.Table qualified as Table
+import Data.List (sortOn)
+import Data.Ord (Down (..))
 import Data.Text (Text)
+import Pulse.RunMeasure (FrequencyPeak (..), RunTotal (..))
 import Verify.PulseProof (FeedWitness (..), PulseProof, PulseWitness (..))
 import Verify.PulseProof qualified as Proof
 
@@ -24,13 +27,13 @@ pulseProof p =
         deviationRow "furthest from an arc" (Proof.onArcs p)
       ]
         <> [["feed mm/min", "", "asked", ""]]
-        <> [ feedRow "mean of a frame, furthest off" (Proof.meanFeed p),
-             feedRow "least over a millimetre" (Proof.leastFeed p),
-             feedRow "highest over a millimetre" (Proof.highestFeed p)
+        <> [ feedRow "mean of a frame, furthest off" (Proof.meanFeed (Proof.feeds p)),
+             feedRow "least over a millimetre" (Proof.leastFeed (Proof.feeds p)),
+             feedRow "highest over a millimetre" (Proof.highestFeed (Proof.feeds p))
            ]
         <> [["axes, pulses a second", "", "", ""]]
-        <> [ frequencyRow "highest mean in a frame" (Proof.highestFrequency p),
-             frequencyRow "largest jump between frames" (Proof.largestJump p)
+        <> [ frequencyRow "highest mean in a frame" (peaks total),
+             frequencyRow "largest jump between frames" (largestJumps total)
            ]
     )
     <> "\n"
@@ -38,11 +41,11 @@ pulseProof p =
       [ToLeft, ToRight, ToLeft]
       [ ["pulses on all axes", Decimal.whole (Proof.pulseCount p), ""],
         [ "waits between two feed moves",
-          Decimal.whole (Proof.waits p),
-          maybe "" (("the first before frame " <>) . Decimal.whole) (Proof.firstWait p)
+          Decimal.whole (starved total),
+          maybe "" (("the first before frame " <>) . Decimal.whole) (firstStarved total)
         ],
-        ["all waits for the reader", seconds (Proof.waitTime p), "s"],
-        ["time of the controller", seconds (Proof.runTime p), "s"],
+        ["all waits for the reader", ticks (totalWaited total), "s"],
+        ["time of the controller", ticks (totalTicks total), "s"],
         ["length by feed", seconds (Proof.formulaTime p), "s"]
       ]
     <> "\n"
@@ -50,7 +53,9 @@ pulseProof p =
       [ToLeft, ToLeft]
       [["verdict on the pulses", if Proof.isSound p then "proven" else "WRONG"]]
   where
+    total = Proof.total p
     seconds (Seconds s) = Decimal.fixed 3 s
+    ticks t = Decimal.fixed 3 (fromIntegral t / fromIntegral (Proof.clock p))
 
 deviationRow :: Text -> Maybe PulseWitness -> [Text]
 deviationRow name found = case found of
@@ -65,7 +70,8 @@ feedRow name found = case found of
   where
     feed (Feed v) = Decimal.fixed 2 v
 
-frequencyRow :: Text -> Maybe (Int, Double) -> [Text]
-frequencyRow name found = case found of
-  Nothing -> [name, "", "", ""]
-  Just (n, hz) -> [name, Decimal.fixed 1 hz, "", Decimal.whole n]
+-- | Row of the highest of the axes' frequencies.
+frequencyRow :: Text -> [FrequencyPeak] -> [Text]
+frequencyRow name found = case sortOn (Down . peakHz) (filter ((> 0) . peakFrame) found) of
+  [] -> [name, "", "", ""]
+  peak : _ -> [name, Decimal.fixed 1 (peakHz peak), "", Decimal.whole (peakFrame peak)]

@@ -7,29 +7,25 @@ where
 
 import Base.LazyList (LazyList)
 import Base.LazyList qualified as LazyList
-import Base.Quantity (Mm)
 import Base.Region (Source)
 import Base.Region qualified as Region
-import Base.Result (Result)
-import Base.Result qualified as Result
 import Cli.Error (Error (..))
 import Cli.Error qualified as Cli
 import Cli.InputFile
   ( Input (..),
-    descriptionsFor,
     displayName,
     ownFiles,
-    readBytes,
     source,
     withInput,
   )
 import Cli.Options (RunForm (..), RunOptions (..))
-import Cli.Outcome (exitAfterWriting, failWith, failWithReport, whenSound)
+import Cli.Outcome (exitAfterWriting, failWith, whenSound)
 import Cli.Output (Exit (..), Reporter)
 import Cli.Output qualified as Output
 import Cli.OutputFile (writeText)
 import Cli.RunTable qualified as RunTable
-import Compile (Compiled, Punched (..))
+import Cli.TapeInput (onFirstMachine, withTapeFile)
+import Compile (Punched (..))
 import Compile qualified
 import Data.ByteString.Builder (Builder)
 import Data.Maybe (fromMaybe, maybeToList)
@@ -44,31 +40,25 @@ import Frame.Frame (FrameProgram (plannedFrames))
 import Machine.Controller (Controller (..), IntegratorControl (override))
 import Machine.Machine (Machine, MachineName (..))
 import Machine.Machine qualified as Machine
-import Project.Error qualified as Project
-import Project.Job (Job (verification), Verification (..))
-import Project.Job qualified as Job
 import Project.LoadedProgram qualified as LoadedProgram
-import Project.Target qualified as Target
 import Pulse.Controller (Console (..))
 import Pulse.Controller qualified as Controller
 import Pulse.ControllerRun (ControllerRun, StopReason (..))
-import Pulse.FrameCompensation (switchRadii)
 import Pulse.JobTimeline (TickRange (..))
 import Pulse.JobTimeline qualified as JobTimeline
-import Pulse.RunMeasure (RunTotal (stopReason, totalTicks))
+import Pulse.RunMeasure (FrameMeasure, RunTotal (stopReason, totalTicks))
 import Pulse.RunMeasure qualified as RunMeasure
-import Report.Report (Report)
 import System.FilePath (takeExtension, takeFileName)
 import Tape.Punch (TapeFrame (frameRead))
 import Tape.Punch qualified as Tape
-import Tape.Tape (Tape (..))
+import Tape.Tape (Tape)
 
 -- | Runs the tape of a program, or a tape.
 run :: Reporter -> RunOptions -> IO Exit
 run reporter options
   | isProgram = withInput reporter file (maybeToList target) $ \given ->
-    whenSound reporter (name given) (source given) (compiled target given) $ \made ->
-      let punched = Compile.punched made
+    whenSound reporter (name given) (source given) (onFirstMachine target given) $ \made ->
+      let Punched {program, tape} = Compile.punched made
        in runTape
             reporter
             options
@@ -76,44 +66,26 @@ run reporter options
               { tapeName = name given,
                 text = source given,
                 machine = Compile.machine made,
-                known = switchRadii (Compile.machine made) (plannedFrames (program punched)),
-                rows = tape punched,
+                console = Controller.consoleFor (Compile.machine made) (plannedFrames program),
+                rows = tape,
                 sources = ownFiles file given
               }
-  | otherwise = case target of
-    Nothing -> failWith reporter shown (NoMachineForTape Target.builtInNames)
-    Just wanted -> do
-      descriptions <- descriptionsFor [wanted] []
-      case Target.machineNamed descriptions wanted of
-        Left e -> failWithReport reporter shown (Project.toReport e)
-        Right machine ->
-          readBytes file
-            >>= either (failWith reporter shown) (runTape reporter options . onTape wanted machine)
+  | otherwise = withTapeFile reporter target file $ \machine rows ->
+    runTape
+      reporter
+      options
+      RunSubject
+        { tapeName = displayName file,
+          text = Region.fromText (displayName file) "",
+          machine,
+          console = Controller.neutral,
+          rows,
+          sources = file : map Text.unpack (maybeToList target)
+        }
   where
     file = runInput options
     target = runTarget options
-    shown = displayName file
-    onTape wanted machine bytes =
-      RunSubject
-        { tapeName = shown,
-          text = Region.fromText shown "",
-          machine,
-          known = [],
-          rows = Tape bytes,
-          sources = [file, Text.unpack wanted]
-        }
     isProgram = takeExtension file == ".part" || LoadedProgram.isInputSheet file
-
--- | Compiles a program for the chosen machine, or for the machine that the program names. The tape
--- is not verified.
-compiled :: Maybe Text -> Input -> Result Report Report Compiled
-compiled target given = do
-  made <- Compile.compile job {verification = Unverified} (loaded given)
-  case made of
-    first : _ -> pure first
-    [] -> Result.failed (Project.toReport (Project.NoMachine Target.builtInNames))
-  where
-    job = Job.forTargets (maybeToList target) (values given) (loaded given)
 
 -- | Tape that is run.
 data RunSubject = RunSubject
@@ -121,8 +93,8 @@ data RunSubject = RunSubject
     tapeName :: Text,
     text :: Source,
     machine :: Machine,
-    -- | radius of the cutter at each switch that the program uses
-    known :: [(Int, Mm)],
+    -- | switches that the program sets
+    console :: Console,
     rows :: Tape,
     -- | files that no output may replace
     sources :: [FilePath]
@@ -130,56 +102,49 @@ data RunSubject = RunSubject
 
 -- | Runs a tape and writes the chosen form. The cutter starts at 0.
 runTape :: Reporter -> RunOptions -> RunSubject -> IO Exit
-runTape reporter options subject = case correctionFor options (machine subject) of
-  Left e -> failWith reporter (tapeName subject) e
+runTape reporter options given = case correctionFor options (machine given) of
+  Left e -> failWith reporter (tapeName given) e
   Right correction ->
-    let console = Console {correction, radii = switchesAt options <> known subject}
-        withRun = withPulses reporter subject console
-     in case runForm options of
-          PulseStream ->
-            withRun $ \pulses ->
-              written (RunTable.pulseLines (machine subject) isShown pulses) id (const mempty)
-          RunAsTable ->
-            let after = Encoding.encodeUtf8Builder . totals RunTable.totalLines
-             in measured console RunTable.frameLines after
-          RunAsJson -> measured console RunTable.frameJson (totals RunTable.totalJson)
-          SpeedPicture output ->
-            withRun (speedPicture reporter subject output . speedColumns)
-          TimelinePicture ticks output ->
-            let range = maybe (AtFeedMove isShown) (uncurry Ticks) ticks
-             in withDispatcher reporter subject $ \control ->
-                  withRun (timelinePicture reporter subject output range control)
+    let console' = (console given) {correction, radii = switchesAt options <> radii (console given)}
+     in Output.collectingOften (runSubject reporter options given {console = console'})
+
+-- | Writes a run in the chosen form.
+runSubject :: Reporter -> RunOptions -> RunSubject -> IO Exit
+runSubject reporter options subject = case runForm options of
+  PulseStream ->
+    withRun $ \pulses ->
+      written (RunTable.pulseLines (machine subject) isShown pulses) id (const mempty)
+  RunAsTable ->
+    measured RunTable.frameLines (Encoding.encodeUtf8Builder . totals RunTable.totalLines)
+  RunAsJson -> measured RunTable.frameJson (totals RunTable.totalJson)
+  SpeedPicture output ->
+    withRun $
+      speedPicture reporter subject output . SpeedPlot.columns (machine subject) clock isShown
+  TimelinePicture ticks output ->
+    let range = maybe (AtFeedMove isShown) (uncurry Ticks) ticks
+     in withDispatcher reporter subject $ \control ->
+          withRun (timelinePicture reporter subject output range control)
   where
+    withRun = withPulses reporter subject
     clock = clockOf subject
     totals make = make (machine subject) clock
-    speedColumns = SpeedPlot.columns (machine subject) clock isShown
-    measured console lines' after =
-      case Controller.measuredWith (machine subject) console 0 (rows subject) of
-        Nothing -> failWith reporter (tapeName subject) (NoController (machineName subject))
-        Just list -> written (lines' (machine subject) clock isShown list) stopReason after
+    measured lines' after = case measuresOf subject of
+      Nothing -> failWith reporter (tapeName subject) (NoController (machineName subject))
+      Just list -> written (lines' (machine subject) clock isShown list) stopReason after
     isShown n = all (n >=) (fromFrame options) && all (n <=) (toFrame options)
     written :: LazyList e Builder -> (e -> StopReason) -> (e -> Builder) -> IO Exit
-    written = writeStream reporter subject (partsToCollection (runForm options))
+    written parts reasonOf after = do
+      done <- Output.resultStream parts
+      case done of
+        Left why -> exitAfterWriting reporter "" "to standard output" (Left why)
+        Right Nothing -> pure Done
+        Right (Just e) -> do
+          _ <- Output.resultStream (LazyList.Next (after e) (LazyList.End ()))
+          afterStop reporter subject (reasonOf e)
 
--- | Writes the parts of an output, and what @after@ makes of the value behind the last one.
--- @toCollection@ is the count of parts after which garbage is collected. @reasonOf@ gives the
--- reason why the run has stopped.
-writeStream ::
-  Reporter ->
-  RunSubject ->
-  Int ->
-  LazyList e Builder ->
-  (e -> StopReason) ->
-  (e -> Builder) ->
-  IO Exit
-writeStream reporter subject toCollection parts reasonOf after = do
-  done <- Output.resultStream toCollection parts
-  case done of
-    Left why -> exitAfterWriting reporter "" "to standard output" (Left why)
-    Right Nothing -> pure Done
-    Right (Just e) -> do
-      _ <- Output.resultStream 1 (LazyList.Next (after e) (LazyList.End ()))
-      afterStop reporter subject (reasonOf e)
+-- | Measures of the frames that run; 'Nothing' without a controller.
+measuresOf :: RunSubject -> Maybe (LazyList RunTotal FrameMeasure)
+measuresOf subject = Controller.measured (machine subject) (console subject) 0 (rows subject)
 
 -- | Frequency of the clock of a controller.
 clockOf :: RunSubject -> Int
@@ -190,9 +155,9 @@ machineName subject = let MachineName name' = Machine.name (machine subject) in 
 
 -- | Continues with the pulses of a run. The command fails with a report if the controller makes
 -- none.
-withPulses :: Reporter -> RunSubject -> Console -> (ControllerRun -> IO Exit) -> IO Exit
-withPulses reporter subject console continue =
-  case Controller.runWith (machine subject) console 0 (rows subject) of
+withPulses :: Reporter -> RunSubject -> (ControllerRun -> IO Exit) -> IO Exit
+withPulses reporter subject continue =
+  case Controller.run (machine subject) (console subject) 0 (rows subject) of
     Nothing -> failWith reporter (tapeName subject) (NoPulses (machineName subject))
     Just pulses -> continue pulses
 
@@ -238,10 +203,9 @@ timelinePicture reporter subject output range control pulses =
         output
         (Timeline.plot (machine subject) control (shortName subject) timeline)
     Nothing -> failWith reporter (tapeName subject) $ case range of
-      Ticks _ _ -> NothingInRange "tick" (maybe 0 (totalTicks . LazyList.end) measured)
+      Ticks _ _ -> NothingInRange "tick" (maybe 0 (totalTicks . LazyList.end) (measuresOf subject))
       AtFeedMove _ -> NothingInRange "feed move" (length (filter isFeedMove frames))
   where
-    measured = Controller.measured (machine subject) 1 0 (rows subject)
     frames = LazyList.toList (Tape.readInTurn (machine subject) 0 (rows subject))
     isFeedMove = RunMeasure.isAtFeed (machine subject) . frameRead
 
@@ -266,16 +230,6 @@ afterStop reporter subject why = case why of
   where
     stoppedWith report =
       Failed <$ Output.showReports reporter (tapeName subject) (text subject) [report]
-
--- | Count of parts of the output after which garbage is collected. A part is the line of a pulse,
--- or of a frame, which has many pulses.
-partsToCollection :: RunForm -> Int
-partsToCollection form = case form of
-  PulseStream -> 65536
-  RunAsTable -> 256
-  RunAsJson -> 256
-  SpeedPicture _ -> 256
-  TimelinePicture _ _ -> 256
 
 -- | Correction of the feed as a factor, from the position of the switch that the command line
 -- names.

@@ -44,7 +44,7 @@ import Machine.Machine
 import Machine.Machine qualified as Machine
 import Pulse.ControllerRun (ControllerRun (..), FrameStart (..), StopReason (..), Tick)
 import Pulse.FramePath (AskedFeed (..))
-import Pulse.RunMeasure (FrameMeasure, JobLoad (..), RunTotal (..))
+import Pulse.RunMeasure (FrameMeasure, FrequencyPeak (..), JobLoad (..), RunTotal (..))
 import Pulse.RunMeasure qualified as Measure
 import Pulse.Steps (Pulses5)
 import Pulse.Steps qualified as Steps
@@ -63,18 +63,13 @@ axisNames machine =
 
 -- Frames ------------------------------------------------------------------------------------------
 
--- | Lines of the table for all frames; an empty part for a frame that is not shown. The second
--- argument is the frequency of the clock; the third tells which frames are shown, by their
--- numbers.
+-- | Lines of the table for all frames. The second argument is the frequency of the clock; the third
+-- tells which frames are shown, by their numbers.
 frameLines ::
   Machine -> Int -> (Int -> Bool) -> LazyList RunTotal FrameMeasure -> LazyList RunTotal Builder
-frameLines machine clock isShown measured = LazyList.Next (textLine heading) (go measured)
+frameLines machine clock isShown measured =
+  LazyList.Next (textLine heading) (eachShown isShown (textLine . row) measured)
   where
-    go list = case list of
-      LazyList.End total -> LazyList.End total
-      LazyList.Next m more
-        | isShown (Measure.number m) -> LazyList.Next (textLine (row m)) (go more)
-        | otherwise -> LazyList.Next mempty (go more)
     axes = axisNames machine
     heading =
       cells
@@ -93,13 +88,24 @@ frameLines machine clock isShown measured = LazyList.Next (textLine heading) (go
             <> [Decimal.whole (Steps.component k (Measure.pulses m)) | (k, _) <- axes]
             <> [maybe "" askedText (Measure.asked m)]
             <> maybe ["", "", ""] feedTexts (Measure.feeds m)
-            <> [frequency (Measure.highestFrequency m), frequency (Measure.frequencyJump m)]
+            <> [frequency (Measure.frequencies m), frequency (Measure.jumps m)]
         )
         <> Text.concat
           ["  " <> c <> " " <> Decimal.whole n | (_, CommandName c, n) <- Measure.commands m]
     feedTexts (a, b, c) = map (Decimal.short 2) [a, b, c]
-    frequency v = if v > 0 then Decimal.short 1 v else ""
+    frequency hz = let v = maximum (0 : hz) in if v > 0 then Decimal.short 1 v else ""
     cells ts = Text.concat (zipWith (\w t -> Text.justifyRight w ' ' (" " <> t)) (7 : repeat 10) ts)
+
+-- | A part for each frame that is shown.
+eachShown ::
+  (Int -> Bool) -> (FrameMeasure -> Builder) -> LazyList e FrameMeasure -> LazyList e Builder
+eachShown isShown part = go
+  where
+    go list = case list of
+      LazyList.End total -> LazyList.End total
+      LazyList.Next m more
+        | isShown (Measure.number m) -> LazyList.Next (part m) (go more)
+        | otherwise -> go more
 
 askedText :: AskedFeed -> Text
 askedText a = case a of
@@ -116,13 +122,8 @@ textLine t = Encoding.encodeUtf8Builder (Text.stripEnd t <> "\n")
 -- | JSON objects of all frames, one on each line.
 frameJson ::
   Machine -> Int -> (Int -> Bool) -> LazyList RunTotal FrameMeasure -> LazyList RunTotal Builder
-frameJson machine clock isShown = go
+frameJson machine clock isShown = eachShown isShown (jsonLine . value)
   where
-    go list = case list of
-      LazyList.End total -> LazyList.End total
-      LazyList.Next m more
-        | isShown (Measure.number m) -> LazyList.Next (jsonLine (value m)) (go more)
-        | otherwise -> LazyList.Next mempty (go more)
     value m =
       object
         [ "frame" .= Measure.number m,
@@ -136,13 +137,16 @@ frameJson machine clock isShown = go
             .= fmap
               (\(a, b, c) -> object ["mean" .= a, "least" .= b, "highest" .= c])
               (Measure.feeds m),
-          "frequency" .= Measure.highestFrequency m,
-          "jump" .= Measure.frequencyJump m,
+          "frequency" .= perAxisOf (Measure.frequencies m),
+          "jump" .= perAxisOf (Measure.jumps m),
           "commands"
             .= [ object ["name" .= c, "number" .= n, "at" .= inSeconds clock t]
                  | (t, CommandName c, n) <- Measure.commands m
                ]
         ]
+    -- A frame that takes no time has no frequencies.
+    perAxisOf hz =
+      object [Key.fromText name .= v | (k, name) <- axisNames machine, v <- take 1 (drop k hz)]
     askedJson a = case a of
       Along v -> object ["mm/min" .= v]
       OfLeadingAxis hz -> object ["Hz" .= hz]
@@ -159,40 +163,61 @@ jsonLine v = Builder.lazyByteString (Aeson.encode v <> LazyByteString.singleton 
 
 -- Totals ------------------------------------------------------------------------------------------
 
--- | The tables after the frames: times and pulses of the whole tape, and the load of the
--- dispatcher.
+-- | The tables after the frames: times of the whole tape, pulses and frequencies of its axes, and
+-- the load of the dispatcher.
 totalLines :: Machine -> Int -> RunTotal -> Text
 totalLines machine clock total =
-  "\n"
-    <> Table.columns
-      [ToLeft, ToLeft]
-      ( [ ["time", seconds clock (totalTicks total) <> " s"],
-          ["waits for the reader", seconds clock (totalWaited total) <> " s"],
-          [ "frames that wait between two feed moves",
-            Decimal.whole (starved total)
-              <> maybe "" ((", the first is frame " <>) . Decimal.whole) (firstStarved total)
-          ]
+  Text.concat
+    [ "\n" <> table
+      | table <- [timeTable machine clock total, axisTable machine total, jobTable clock total],
+        not (Text.null table)
+    ]
+
+timeTable :: Machine -> Int -> RunTotal -> Text
+timeTable machine clock total =
+  Table.columns
+    [ToLeft, ToLeft]
+    [ ["time", seconds clock (totalTicks total) <> " s"],
+      ["waits for the reader", seconds clock (totalWaited total) <> " s"],
+      [ "frames that wait between two feed moves",
+        Decimal.whole (starved total)
+          <> maybe "" ((", the first is frame " <>) . Decimal.whole) (firstStarved total)
+      ],
+      ["stops", stopText machine (stopReason total)]
+    ]
+
+axisTable :: Machine -> RunTotal -> Text
+axisTable machine total =
+  Table.columns
+    [ToLeft, ToRight, ToRight, ToRight, ToRight, ToRight]
+    ( ["axis", "pulses", "highest Hz", "in frame", "largest jump Hz", "in frame"] :
+        [ [name, Decimal.whole (Steps.component k (totalPulses total))]
+            <> concatMap peakCells (take 1 (drop k (peaks total)))
+            <> concatMap peakCells (take 1 (drop k (largestJumps total)))
+          | (k, name) <- axisNames machine
         ]
-          <> [ ["pulses " <> name, Decimal.whole (Steps.component k (totalPulses total))]
-               | (k, name) <- axisNames machine
-             ]
-          <> [["stops", stopText machine (stopReason total)]]
+    )
+  where
+    peakCells peak
+      | peakFrame peak == 0 = ["", ""]
+      | otherwise = [Decimal.short 1 (peakHz peak), Decimal.whole (peakFrame peak)]
+
+-- | Empty for a controller without a dispatcher.
+jobTable :: Int -> RunTotal -> Text
+jobTable clock total
+  | Map.null (loads total) = ""
+  | otherwise =
+    Table.columns
+      [ToLeft, ToRight, ToRight, ToRight]
+      ( ["job", "runs", "load %", "longest wait ms"] :
+          [ [ name,
+              Decimal.whole (runCount l),
+              Decimal.fixed 2 (100 * share (runTicks l)),
+              Decimal.fixed 3 (1000 * inSeconds clock (longestWait l))
+            ]
+            | (name, l) <- Map.toList (loads total)
+          ]
       )
-    <> if Map.null (loads total)
-      then ""
-      else
-        "\n"
-          <> Table.columns
-            [ToLeft, ToRight, ToRight, ToRight]
-            ( ["job", "runs", "load %", "longest wait ms"] :
-                [ [ name,
-                    Decimal.whole (runCount l),
-                    Decimal.fixed 2 (100 * share (runTicks l)),
-                    Decimal.fixed 3 (1000 * inSeconds clock (longestWait l))
-                  ]
-                  | (name, l) <- Map.toList (loads total)
-                ]
-            )
   where
     share t = fromIntegral t / fromIntegral (max 1 (totalTicks total))
 
@@ -208,6 +233,8 @@ totalJson machine clock total =
                 "starved" .= starved total,
                 "firstStarved" .= firstStarved total,
                 "pulses" .= perAxis machine (totalPulses total),
+                "highestFrequency" .= perAxisPeaks (peaks total),
+                "largestJump" .= perAxisPeaks (largestJumps total),
                 "stop" .= stopText machine (stopReason total),
                 "jobs"
                   .= object
@@ -222,6 +249,13 @@ totalJson machine clock total =
               ]
         ]
     )
+  where
+    perAxisPeaks found =
+      object
+        [ Key.fromText name .= object ["Hz" .= peakHz peak, "frame" .= peakFrame peak]
+          | (k, name) <- axisNames machine,
+            peak <- take 1 (drop k found)
+        ]
 
 stopText :: Machine -> StopReason -> Text
 stopText machine why = case why of
@@ -231,7 +265,10 @@ stopText machine why = case why of
   ProgramEnds -> "at the end of the program"
   Unreadable _ ->
     "before a frame that cannot be read"
-      <> maybe "" (\t -> "; the control lights ‘" <> t <> "’") (signal (Machine.controller machine))
+      <> maybe
+        ""
+        (\t -> "; the control lights ‘" <> t <> "’")
+        (signal (Machine.controller machine))
   TooFast n _ _ -> "before frame " <> Decimal.whole n <> ", whose feed is too high"
   FeedHeld n -> "before frame " <> Decimal.whole n <> ", because the feed is held"
   SwitchNotSet n k ->
@@ -259,7 +296,7 @@ pulseLines machine isShown = go False
       Stepped t steps more
         | shown -> LazyList.Next (mconcat [line t steps axis | axis <- axes]) (go shown more)
         | otherwise -> go shown more
-      FrameEnds _ more -> LazyList.Next mempty (go shown more)
+      FrameEnds _ more -> go shown more
       Commanded _ _ _ more -> go shown more
       JobDone _ more -> go shown more
       Stopped _ why -> LazyList.End why

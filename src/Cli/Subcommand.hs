@@ -38,6 +38,7 @@ import Cli.Progress qualified as Progress
 import Cli.ProofTable qualified as ProofTable
 import Cli.PulseProofTable qualified as PulseProofTable
 import Cli.RunCommand qualified as RunCommand
+import Cli.TapeInput (onFirstMachine, withTapeFile)
 import Compile (Compiled (Compiled), Punched (..))
 import Compile qualified
 import Control.Exception (evaluate)
@@ -236,17 +237,6 @@ settled reporter given = whenSound reporter (name given) (source given)
 jobFor :: [Text] -> Input -> Job
 jobFor names given = Job.forTargets names (values given) (loaded given)
 
--- | Compiles a program for the machine @target@; if this is nothing, for the machine that the
--- program names. The tape is not verified.
-onFirstMachine :: Maybe Text -> Input -> Result Report Report Compiled
-onFirstMachine target given = do
-  tapes <- Compile.compile job {verification = Unverified} (loaded given)
-  case tapes of
-    first : _ -> pure first
-    [] -> Result.failed (Project.toReport (Project.NoMachine Target.builtInNames))
-  where
-    job = jobFor (maybeToList target) given
-
 framesOf :: Punched -> [Frame]
 framesOf = map Frame.frame . Frame.plannedFrames . program
 
@@ -302,18 +292,10 @@ drawTape reporter target range tapeFile = withTape reporter target tapeFile $ \m
 -- tape does not contain the position from which the cutter starts, so this is assumed to be 0.
 -- Without @target@ the command fails.
 withTape :: Reporter -> Maybe Text -> FilePath -> (Machine -> [Frame] -> IO Exit) -> IO Exit
-withTape reporter target tapeFile continue = case target of
-  Nothing -> failWith reporter tapeName (NoMachineForTape Target.builtInNames)
-  Just wanted -> do
-    descriptions <- descriptionsFor [wanted] []
-    case Target.machineNamed descriptions wanted of
-      Left e -> failWithReport reporter tapeName (Project.toReport e)
-      Right machine -> readBytes tapeFile >>= either (failWith reporter tapeName) (decoded machine)
-  where
-    tapeName = displayName tapeFile
-    decoded machine bytes = case Tape.read machine 0 (Tape bytes) of
-      Left damage -> failWithReport reporter tapeName (Tape.toReport damage)
-      Right read' -> continue machine read'
+withTape reporter target tapeFile continue =
+  withTapeFile reporter target tapeFile $ \machine rows -> case Tape.read machine 0 rows of
+    Left damage -> failWithReport reporter (displayName tapeFile) (Tape.toReport damage)
+    Right read' -> continue machine read'
 
 -- Machines, explanations, editors -----------------------------------------------------------------
 

@@ -18,6 +18,7 @@ module Machine.Axis
 where
 
 import Base.Quantity (Mm (..), Rad (..))
+import Data.List (find)
 import Data.Text (Text)
 
 -- | Linear axis, with its name in ISO 841.
@@ -76,9 +77,7 @@ data RotaryForm = RotaryForm
 
 -- | Finds the properties of the rotary axis @a@ in a list; 'Nothing' if the list lacks the axis.
 rotaryAmong :: RotaryAxis -> [RotaryForm] -> Maybe RotaryForm
-rotaryAmong a forms = case forms of
-  [] -> Nothing
-  f : others -> if rotaryAxis f == a then Just f else rotaryAmong a others
+rotaryAmong a = find ((== a) . rotaryAxis)
 
 -- | Name of a rotary axis in reports and descriptions: @a@ or @b@.
 rotaryName :: RotaryAxis -> Text

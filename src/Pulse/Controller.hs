@@ -4,10 +4,10 @@
 -- program, the toolpath or the planned frames.
 module Pulse.Controller
   ( Console (..),
+    neutral,
+    consoleFor,
     run,
-    runWith,
     measured,
-    measuredWith,
     ticksPerSecond,
   )
 where
@@ -16,6 +16,7 @@ import Base.LazyList (LazyList)
 import Base.PulseVector (Pulses3)
 import Base.Quantity (Mm)
 import Data.List.NonEmpty qualified as NonEmpty
+import Frame.Frame (PlannedFrame)
 import Machine.Controller (Controller (..), IntegratorControl (..), StepControl (..))
 import Machine.Machine
   ( CommandName,
@@ -26,7 +27,7 @@ import Machine.Machine
   )
 import Machine.Machine qualified as Machine
 import Pulse.ControllerRun (ControllerRun)
-import Pulse.FrameCompensation (prepared)
+import Pulse.FrameCompensation (prepared, switchRadii)
 import Pulse.IntegratorRun qualified as IntegratorRun
 import Pulse.PathPlanner qualified as PathPlanner
 import Pulse.RunMeasure (FrameMeasure, RunTotal)
@@ -35,18 +36,22 @@ import Pulse.StepRun qualified as StepRun
 import Tape.Punch qualified as Punch
 import Tape.Tape (Tape)
 
--- | Run of a tape. The arguments are the correction of the feed as a factor, and the position of
--- the cutter before the tape, in pulses. 'Nothing' if the model of the controller makes no pulses.
-run :: Machine -> Double -> Pulses3 -> Tape -> Maybe ControllerRun
-run machine correction = runWith machine Console {correction, radii = []}
-
--- | Settings at the console of a control: the correction of the feed as a factor, and the radius
--- of the cutter at each switch that is set.
+-- | Settings at the console of a control: the correction of the feed as a factor, and the radius of
+-- the cutter at each switch that is set.
 data Console = Console {correction :: Double, radii :: [(Int, Mm)]}
 
--- | Run of a tape with settings at the console.
-runWith :: Machine -> Console -> Pulses3 -> Tape -> Maybe ControllerRun
-runWith machine Console {correction, radii} start tape = case Machine.controller machine of
+-- | Console that corrects no feed and has no switch set.
+neutral :: Console
+neutral = Console {correction = 1, radii = []}
+
+-- | Console with the switches set for the cutters of planned frames.
+consoleFor :: Machine -> [PlannedFrame] -> Console
+consoleFor machine planned = neutral {radii = switchRadii machine planned}
+
+-- | Run of a tape. The third argument is the position of the cutter before the tape, in pulses.
+-- 'Nothing' if the model of the controller makes no pulses.
+run :: Machine -> Console -> Pulses3 -> Tape -> Maybe ControllerRun
+run machine Console {correction, radii} start tape = case Machine.controller machine of
   Nothing -> Nothing
   Just (Stepping c) -> Just (StepRun.run machine c correction final frames)
   Just (Integrating c) ->
@@ -58,13 +63,8 @@ runWith machine Console {correction, radii} start tape = case Machine.controller
 
 -- | Measures of the frames of a tape. The arguments are those of 'run'. 'Nothing' if the
 -- description of the machine has no controller.
-measured :: Machine -> Double -> Pulses3 -> Tape -> Maybe (LazyList RunTotal FrameMeasure)
-measured machine correction = measuredWith machine Console {correction, radii = []}
-
--- | Measures of the frames of a tape that is run with settings at the console.
-measuredWith ::
-  Machine -> Console -> Pulses3 -> Tape -> Maybe (LazyList RunTotal FrameMeasure)
-measuredWith machine console start tape = case Machine.controller machine of
+measured :: Machine -> Console -> Pulses3 -> Tape -> Maybe (LazyList RunTotal FrameMeasure)
+measured machine console start tape = case Machine.controller machine of
   Nothing -> Nothing
   Just (Planning c) ->
     Just (PathPlanner.measure machine c (lastCommands machine) frames)
@@ -72,7 +72,7 @@ measuredWith machine console start tape = case Machine.controller machine of
   Just (Integrating c) -> RunMeasure.measure machine (clock c) <$> pulses
   where
     frames = Punch.readInTurn machine start tape
-    pulses = runWith machine console start tape
+    pulses = run machine console start tape
 
 -- | Frequency of the clock whose ticks 'measured' counts; 'Nothing' if the description of the
 -- machine has no controller.

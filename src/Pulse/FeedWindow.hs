@@ -129,9 +129,7 @@ windowLength w to = case path w of
   Just (Arc {clockwise, FramePath.from = (i, j)}) ->
     let Pulses5 a b _ _ _ = from w
         Pulses5 c d _ _ _ = to
-        (u, v, u', v') = (i + a, j + b, i + c, j + d)
-        turn = atan2 (fromIntegral (u * v' - v * u')) (fromIntegral (u * u' + v * v')) :: Double
-        angle = if clockwise then negate turn else turn
+        angle = FramePath.angleBetween clockwise (i + a, j + b) (i + c, j + d)
         radius = sqrt (fromIntegral (i * i + j * j)) * pulseLength (ruler w)
      in radius * (if angle < 0 then angle + 2 * pi else angle)
   Just (Line _) -> perCount (ruler w) * fromIntegral (windowCount (ruler w))

@@ -65,15 +65,17 @@ prepared ::
 prepared machine radii = go 1
   where
     commands = Machine.compensation (Machine.commandWords machine)
-    go n position frames = case frames of
-      LazyList.End damage -> LazyList.End (maybe TapeEnds Unreadable damage)
-      LazyList.Next f more -> case commands of
-        Just c
-          | isOn c (frameRead f) -> section n position c f more
-        _ ->
-          LazyList.Next
-            (PreparedFrame f (maybeToList (FramePath.fromFrame (frameRead f))) False)
-            (go (n + 1) (position + Frame.increment (frameRead f)) more)
+    -- An unevaluated position would keep all frames before it in memory.
+    go n position frames =
+      position `seq` case frames of
+        LazyList.End damage -> LazyList.End (maybe TapeEnds Unreadable damage)
+        LazyList.Next f more -> case commands of
+          Just c
+            | isOn c (frameRead f) -> section n position c f more
+          _ ->
+            LazyList.Next
+              (PreparedFrame f (maybeToList (FramePath.fromFrame (frameRead f))) False)
+              (go (n + 1) (position + Frame.increment (frameRead f)) more)
     section n position c first more = case radiusIn c (frameRead first) of
       Left missing -> LazyList.End (SwitchNotSet n missing)
       Right radius ->

@@ -6,6 +6,8 @@ module Pulse.FramePath
   ( FramePath (..),
     fromFrame,
     pathLength,
+    sweep,
+    angleBetween,
     leadingPulses,
     leadingAxis,
     allPulses,
@@ -64,15 +66,25 @@ pathLength machine path = case path of
   Line (Pulses5 0 0 0 a b) -> norm [fromIntegral a * angle A, fromIntegral b * angle B]
   Line (Pulses5 x y z _ _) ->
     norm [fromIntegral x * pulse X, fromIntegral y * pulse Y, fromIntegral z * pulse Z]
-  Arc {clockwise, from = (a, b), to = (c, d)} ->
-    let turn = atan2 (fromIntegral (a * d - b * c)) (fromIntegral (a * c + b * d)) :: Double
-        signed = if clockwise then negate turn else turn
-        sweep = if signed <= 0 then signed + 2 * pi else signed
-     in sqrt (fromIntegral (a * a + b * b)) * sweep * pulse X
+  Arc {from = (a, b)} -> sqrt (fromIntegral (a * a + b * b)) * sweep path * pulse X
   where
     norm ls = sqrt (sum (map (\l -> l * l) ls))
     pulse a = let Mm l = Machine.resolutionOf machine a in l
     angle a = maybe 0 (degrees . pulseAngle) (Machine.rotaryForm machine a)
+
+-- | Sweep of an arc in radians, above 0 and up to 2π; 0 for a line.
+sweep :: FramePath -> Double
+sweep path = case path of
+  Line _ -> 0
+  Arc {clockwise, from, to} ->
+    let turn = angleBetween clockwise from to in if turn <= 0 then turn + 2 * pi else turn
+
+-- | Angle from one direction to another in the sense of an arc, between −π and π. The first
+-- argument is true for a clockwise arc.
+angleBetween :: Bool -> (Int, Int) -> (Int, Int) -> Double
+angleBetween clockwise (a, b) (c, d) = if clockwise then negate turn else turn
+  where
+    turn = atan2 (fromIntegral (a * d - b * c)) (fromIntegral (a * c + b * d))
 
 -- | Pulses of the axis with most pulses, on a line.
 leadingPulses :: Pulses5 -> Int

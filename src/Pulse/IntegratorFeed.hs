@@ -12,6 +12,7 @@ module Pulse.IntegratorFeed
     lengthLeft,
     stoppable,
     initial,
+    waitBounds,
   )
 where
 
@@ -21,10 +22,12 @@ import Machine.Controller
     IntegratorControl (..),
     InterpolationMethod (..),
     JobRequest (..),
+    TapeReader (rowsPerSecond),
   )
 import Machine.Controller qualified as Controller
 import Machine.Machine (Axis (X), Machine)
 import Machine.Machine qualified as Machine
+import Pulse.Dispatcher qualified as Dispatcher
 import Pulse.EvaluationArc qualified as EvaluationArc
 import Pulse.FeedIntegrator qualified as FeedIntegrator
 import Pulse.FramePath (FramePath (..))
@@ -136,3 +139,32 @@ initial :: IntegratorControl -> Double -> Double -> Double
 initial control asked before = case [t | ControlJob {request = AtAcceleration t} <- jobs control] of
   [] -> asked
   Seconds t : _ -> min asked (max before (pathAcceleration control * t * 60))
+
+-- | Bound for the ticks that each job waits between its request and its start, while the feed makes
+-- at most @frequency@ overflows per second. 'Nothing' for a job that may have no time at this feed.
+--
+-- A frame has two rows at least, and a word one. Between two requests of the other jobs lies the
+-- time or the count of cycles in their description.
+waitBounds :: IntegratorControl -> Double -> [(ControlJob, Maybe Int)]
+waitBounds control frequency =
+  [(j, bound j (take n (jobs control))) | (n, j) <- zip [1 ..] (jobs control)]
+  where
+    bound j upToIt =
+      Dispatcher.longestWait
+        (max (lineCycle control) (arcCycle control))
+        (Controller.capacity control)
+        v
+        (duration j)
+        (maximum (map duration (jobs control)))
+        [(duration k, leastInterval (request k)) | k <- upToIt]
+    v = FeedIntegrator.cellFor (Controller.capacity control) (clock control) frequency
+    row = max 1 (floor (fromIntegral (clock control) / rowsPerSecond (reader control)))
+    leastInterval r = case r of
+      AtCharacter -> row
+      AtNumber -> row
+      AtTransfer -> 2 * row
+      AtCompensation -> 2 * row
+      AtDirection n _ -> n * (Controller.capacity control `quot` v)
+      AtAcceleration t -> Controller.ticksIn (clock control) t
+      Periodic t -> Controller.ticksIn (clock control) t
+      AfterCommand _ t _ -> Controller.ticksIn (clock control) t

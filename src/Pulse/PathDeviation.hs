@@ -68,8 +68,7 @@ stepped :: FramePath -> Steps -> PathTrace -> PathTrace
 stepped path steps trace = PathTrace to $ case path of
   Line _ -> 0
   Arc {clockwise, from} ->
-    let turn = angleBetween from (fromCentre from to)
-        signed = if clockwise then negate turn else turn
+    let signed = FramePath.angleBetween clockwise from (fromCentre from to)
         turns = round ((turned trace - signed) / (2 * pi)) :: Int
      in signed + 2 * pi * fromIntegral turns
   where
@@ -78,10 +77,6 @@ stepped path steps trace = PathTrace to $ case path of
 -- | Position relative to the centre of an arc; the first argument is its start.
 fromCentre :: (Int, Int) -> Pulses5 -> (Int, Int)
 fromCentre (i, j) (Pulses5 x y _ _ _) = (i + x, j + y)
-
--- | Angle from one direction to another, between −π and π.
-angleBetween :: (Int, Int) -> (Int, Int) -> Double
-angleBetween (a, b) (c, d) = atan2 (fromIntegral (a * d - b * c)) (fromIntegral (a * c + b * d))
 
 -- | Deviation of the position that is reached.
 deviation :: InterpolationMethod -> FramePath -> PathTrace -> Double
@@ -93,7 +88,7 @@ deviation method path trace = case path of
     let radius = length2 (fromCentre from p)
         (r, s) = (length2 from, length2 to)
         outside = max (radius - max r s) (min r s - radius)
-        over = max (negate (turned trace)) (turned trace - sweepOf path)
+        over = max (negate (turned trace)) (turned trace - FramePath.sweep path)
         offEnd = if over > 0 then radius * sin (min over (pi / 2)) else 0
      in max 0 (max outside offEnd)
   where
@@ -104,16 +99,7 @@ deviationAtEnd :: InterpolationMethod -> FramePath -> PathTrace -> Double
 deviationAtEnd method path trace = case path of
   Line _ -> deviation method path trace
   Arc {to} ->
-    max (deviation method path trace) (length2 to * abs (sweepOf path - turned trace))
-
--- | Sweep of an arc, above 0 and up to 2π; 0 for a line.
-sweepOf :: FramePath -> Double
-sweepOf path = case path of
-  Line _ -> 0
-  Arc {clockwise, from, to} ->
-    let turn = angleBetween from to
-        signed = if clockwise then negate turn else turn
-     in if signed <= 0 then signed + 2 * pi else signed
+    max (deviation method path trace) (length2 to * abs (FramePath.sweep path - turned trace))
 
 length2 :: (Int, Int) -> Double
 length2 (a, b) = sqrt (fromIntegral (a * a + b * b))

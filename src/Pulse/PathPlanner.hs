@@ -19,7 +19,6 @@ where
 import Base.LazyList (LazyList)
 import Base.LazyList qualified as LazyList
 import Base.Quantity (Mm (..))
-import Data.Map.Strict qualified as Map
 import Frame.Frame (Frame)
 import Frame.Frame qualified as Frame
 import Machine.Controller (CornerPolicy (..), PathControl (..))
@@ -29,6 +28,7 @@ import Pulse.ControllerRun (StopReason (..))
 import Pulse.FramePath (AskedFeed (..), FramePath (..))
 import Pulse.FramePath qualified as FramePath
 import Pulse.RunMeasure (FrameMeasure (..), RunTotal (..))
+import Pulse.RunMeasure qualified as RunMeasure
 import Pulse.Steps (Pulses5 (..))
 import Pulse.Steps qualified as Steps
 import Tape.Damage (Damage)
@@ -60,13 +60,9 @@ measure machine control lastCommands = go (Place 1 0 zero zero)
     isFinal f = not (null lastCommands) && all (`elem` Frame.commands f) lastCommands
     stopped place why =
       LazyList.End
-        RunTotal
+        RunMeasure.emptyTotal
           { totalTicks = ticks (startsAt place),
             totalPulses = sumOfPulses place,
-            totalWaited = 0,
-            starved = 0,
-            firstStarved = Nothing,
-            loads = Map.empty,
             stopReason = why
           }
     follows more = case more of
@@ -112,8 +108,8 @@ timed machine control place f isFollowed = (m, place')
           pulses = magnitude d,
           asked = FramePath.askedFeed machine f <$ path,
           feeds = if whole > 0 then Just (mean, 0, 60 * highest) else Nothing,
-          highestFrequency = 0,
-          frequencyJump = 0,
+          frequencies = [],
+          jumps = [],
           commands = [(ticks (startsAt place), c, n) | (c, n) <- Frame.commands f]
         }
     highest = maybe 0 (\p -> let (u, _) = reached machine control p long v in u) path

@@ -5,7 +5,9 @@
 module Pulse.RunMeasure
   ( FrameMeasure (..),
     RunTotal (..),
+    FrequencyPeak (..),
     JobLoad (..),
+    emptyTotal,
     measure,
     isAtFeed,
   )
@@ -55,10 +57,10 @@ data FrameMeasure = FrameMeasure
     -- | mean feed, and the least and the highest of all measurements, in mm\/min or in degrees a
     -- minute; Nothing if the frame takes no time
     feeds :: Maybe (Double, Double, Double),
-    -- | mean frequency of the axis with most pulses, in pulses per second
-    highestFrequency :: Double,
-    -- | largest change of an axis's mean frequency from the frame before, in pulses per second
-    frequencyJump :: Double,
+    -- | mean frequencies of the five axes, in pulses per second; empty if the frame takes no time
+    frequencies :: [Double],
+    -- | changes of these frequencies from the frame before; empty without such a frame
+    jumps :: [Double],
     -- | commands with the ticks at which they go out
     commands :: [(Tick, CommandName, Int)]
   }
@@ -72,9 +74,19 @@ data RunTotal = RunTotal
     -- and the first of them
     starved :: Int,
     firstStarved :: Maybe Int,
+    -- | for each axis, the highest mean frequency in a frame, and the largest change from frame to
+    -- frame
+    peaks :: [FrequencyPeak],
+    largestJumps :: [FrequencyPeak],
     loads :: Map Text JobLoad,
     stopReason :: StopReason
   }
+  deriving stock (Eq, Show)
+
+-- | Frequency of an axis in pulses per second, and the number of the frame that has it; both are 0
+-- if the axis makes no pulse.
+data FrequencyPeak = FrequencyPeak {peakHz :: Double, peakFrame :: Int}
+  deriving stock (Eq, Show)
 
 -- | Runs of one job: their count, their ticks, and the longest wait between request and start.
 data JobLoad = JobLoad {runCount :: Int, runTicks :: Tick, longestWait :: Tick}
@@ -107,10 +119,25 @@ measure machine clock =
     clock
     Progress
       { position = zero,
-        total = RunTotal 0 zero 0 0 Nothing Map.empty TapeEnds,
+        total = emptyTotal,
         lastFrequencies = [],
         wasFeedMove = False
       }
+
+-- | Total of no frames.
+emptyTotal :: RunTotal
+emptyTotal =
+  RunTotal
+    { totalTicks = 0,
+      totalPulses = zero,
+      totalWaited = 0,
+      starved = 0,
+      firstStarved = Nothing,
+      peaks = replicate 5 (FrequencyPeak 0 0),
+      largestJumps = replicate 5 (FrequencyPeak 0 0),
+      loads = Map.empty,
+      stopReason = TapeEnds
+    }
 
 zero :: Pulses5
 zero = Pulses5 0 0 0 0 0
@@ -174,7 +201,6 @@ ended machine clock t m = (f, p')
     hasTime = ticks > 0 && long > 0
     hz = map perSecond (Steps.toList (FeedWindow.made w))
     perSecond n = fromIntegral n * fromIntegral clock / fromIntegral ticks
-    frequencies = if hasTime then hz else lastFrequencies p
     isFeedMove = isAtFeed machine (frameStarted s)
     inCut = wasFeedMove p && isFeedMove
     f =
@@ -189,18 +215,15 @@ ended machine clock t m = (f, p')
           pulses = FeedWindow.made w,
           asked = FramePath.askedFeed machine (frameStarted s) <$ path s,
           feeds = if hasTime then Just (feedsOf mean w) else Nothing,
-          highestFrequency = if hasTime then maximum hz else 0,
-          frequencyJump =
-            if hasTime && not (null (lastFrequencies p))
-              then maximum (zipWith (\a b -> abs (a - b)) hz (lastFrequencies p))
-              else 0,
+          frequencies = if hasTime then hz else [],
+          jumps = if hasTime then zipWith (\a b -> abs (a - b)) hz (lastFrequencies p) else [],
           commands = reverse (given m)
         }
     p' =
       Progress
         { position = positionAfter f,
           total = withFrame f (total p),
-          lastFrequencies = frequencies,
+          lastFrequencies = if hasTime then hz else lastFrequencies p,
           wasFeedMove = isFeedMove
         }
 
@@ -218,11 +241,17 @@ withFrame f r =
       totalPulses = Steps.plus (totalPulses r) (pulses f),
       totalWaited = totalWaited r + waitedFor f,
       starved = if isStarved then starved r + 1 else starved r,
-      firstStarved = if isStarved && isNothing (firstStarved r) then Just n else firstStarved r
+      firstStarved = if isStarved && isNothing (firstStarved r) then Just n else firstStarved r,
+      peaks = raisedBy (frequencies f) (peaks r),
+      largestJumps = raisedBy (jumps f) (largestJumps r)
     }
   where
     FrameMeasure {number = n} = f
     isStarved = isInCut f && waitedFor f > 0
+    raisedBy found known = if null found then known else evaluated (zipWith higher found known)
+    -- Peaks that were not evaluated would keep every frame before them.
+    evaluated known = foldr seq known known
+    higher hz peak = if hz > peakHz peak then FrequencyPeak hz n else peak
 
 -- | True for a frame that moves at a feed. On a machine without a code for rapid moves, a line at
 -- the feed of rapid moves is none.

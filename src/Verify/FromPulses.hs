@@ -23,12 +23,12 @@ import Machine.Controller
   )
 import Machine.Machine (Machine)
 import Machine.Machine qualified as Machine
+import Pulse.Controller (Console)
 import Pulse.Controller qualified as Controller
 import Pulse.ControllerRun
   ( ControllerRun (..),
     FrameStart (number, path),
     StopReason (..),
-    Tick,
   )
 import Pulse.ControllerRun qualified as ControllerRun
 import Pulse.FeedWindow qualified as FeedWindow
@@ -41,16 +41,22 @@ import Pulse.RunMeasure qualified as Measure
 import Pulse.Steps (Pulses5 (..), Steps)
 import Pulse.Steps qualified as Steps
 import Tape.Tape (Tape)
-import Verify.PulseProof (FeedWitness (..), PulseFinding (..), PulseProof (..), PulseWitness (..))
+import Verify.PulseProof
+  ( FeedExtremes (..),
+    FeedWitness (..),
+    PulseFinding (..),
+    PulseProof (..),
+    PulseWitness (..),
+  )
 
--- | Proves the pulses of a tape. The second argument is the position of the cutter before the tape,
+-- | Proves the pulses of a tape. The third argument is the position of the cutter before the tape,
 -- in pulses. 'Nothing' if the model of the controller makes no pulses.
-prove :: Machine -> Pulses3 -> Tape -> Maybe PulseProof
-prove machine start tape = do
+prove :: Machine -> Console -> Pulses3 -> Tape -> Maybe PulseProof
+prove machine console start tape = do
   method <- methodOf machine
   ticks <- Controller.ticksPerSecond machine
-  run <- Controller.run machine 1 start tape
-  measured' <- Controller.measured machine 1 start tape
+  run <- Controller.run machine console start tape
+  measured' <- Controller.measured machine console start tape
   pure (proveRun machine method ticks run measured')
 
 -- | Interpolation method of a machine; 'Nothing' if its controller makes no pulses.
@@ -75,27 +81,19 @@ proveRun machine method ticks run measured' =
     { pulseCount = made motions,
       onLines = worstLine motions,
       onArcs = worstArc motions,
-      meanFeed = mean feeds,
-      leastFeed = least feeds,
-      highestFeed = highest feeds,
-      highestFrequency = frequency feeds,
-      largestJump = jump feeds,
-      waits = starved total,
-      firstWait = firstStarved total,
-      waitTime = seconds (totalWaited total),
-      runTime = seconds (totalTicks total),
-      formulaTime = Seconds (byFormula feeds),
+      feeds = extremes watch,
+      total,
+      clock = ticks,
+      formulaTime = Seconds (byFormula watch),
       pulseFindings =
         [OffMotion first worst | Just first <- [firstOff motions], Just worst <- [worstOff motions]]
           <> [EndMissed n d | Just (Miss n d) <- [firstMiss motions]]
-          <> [FeedTooHigh first worst | Just (TooHigh first worst) <- [tooHigh feeds]]
+          <> [FeedTooHigh first worst | Just (TooHigh first worst) <- [tooHigh watch]]
           <> stopFinding (stopReason total)
     }
   where
     motions = ControllerRun.fold (watched method) unmoved run
-    (feeds, total) = allFeeds machine method measured'
-    seconds :: Tick -> Seconds
-    seconds t = Seconds (fromIntegral t / fromIntegral ticks)
+    (watch, total) = allFeeds machine method measured'
 
 stopFinding :: StopReason -> [PulseFinding]
 stopFinding why = case why of
@@ -190,14 +188,10 @@ withDeviation method d w
 
 -- Feeds -------------------------------------------------------------------------------------------
 
--- | State of the comparison of feeds, and the sums of all frames.
+-- | State of the comparison of feeds.
 data FeedWatch = FeedWatch
-  { mean :: Maybe FeedWitness,
-    least :: Maybe FeedWitness,
-    highest :: Maybe FeedWitness,
+  { extremes :: FeedExtremes,
     tooHigh :: Maybe TooHigh,
-    frequency :: Maybe (Int, Double),
-    jump :: Maybe (Int, Double),
     -- | sum of length by feed, in seconds
     byFormula :: Double,
     -- | highest feed that the frame before may have had at its end: the feed that it asks, and if
@@ -211,7 +205,7 @@ data TooHigh = TooHigh FeedWitness FeedWitness
 -- | Compares the feeds of all frames; the result also has the total.
 allFeeds ::
   Machine -> InterpolationMethod -> LazyList RunTotal FrameMeasure -> (FeedWatch, RunTotal)
-allFeeds machine method = go (FeedWatch Nothing Nothing Nothing Nothing Nothing Nothing 0 0)
+allFeeds machine method = go (FeedWatch (FeedExtremes Nothing Nothing Nothing) Nothing 0 0)
   where
     go w list = case list of
       LazyList.End total -> (w, total)
@@ -225,16 +219,10 @@ withMeasure machine method m w = case (FramePath.fromFrame frame', Measure.asked
         -- A braking frame begins with the feed at the end of the frame before.
         most = if Frame.braking frame' then max v (before w) else v
         asked' = Demand {demandPath = p, along = v, limit = feedLimit machine method p * most}
-     in withFeeds machine asked' m timed {before = most}
-  _ -> timed
+     in withFeeds machine asked' m w {before = most}
+  _ -> w
   where
     frame' = Measure.frame m
-    n = Measure.number m
-    timed =
-      w
-        { frequency = largerOf n (Measure.highestFrequency m) (frequency w),
-          jump = largerOf n (Measure.frequencyJump m) (jump w)
-        }
 
 -- | Path of a frame, the feed along it that the frame asks, and the highest feed that is allowed.
 data Demand = Demand {demandPath :: FramePath, along :: Double, limit :: Double}
@@ -246,9 +234,12 @@ withFeeds machine demand m w = case Measure.feeds m of
     | v > 0,
       isRound p ->
       w
-        { mean = keepIf (\a b -> abs (a - 1) > abs (b - 1)) average (mean w),
-          least = keepIf (<) low (least w),
-          highest = keepIf (>) high (highest w),
+        { extremes =
+            FeedExtremes
+              { meanFeed = keepIf (\a b -> abs (a - 1) > abs (b - 1)) average (meanFeed found),
+                leastFeed = keepIf (<) low (leastFeed found),
+                highestFeed = keepIf (>) high (highestFeed found)
+              },
           tooHigh =
             if high > limit demand
               then Just (raised (witness high))
@@ -259,11 +250,12 @@ withFeeds machine demand m w = case Measure.feeds m of
   where
     p = demandPath demand
     v = along demand
-    witness found = FeedWitness (Measure.number m) (Feed found) (Feed v)
-    ratio (FeedWitness _ (Feed found) (Feed asked)) = found / asked
-    keepIf better found old = case old of
-      Just o | not (better (found / v) (ratio o)) -> old
-      _ -> Just (witness found)
+    found = extremes w
+    witness f = FeedWitness (Measure.number m) (Feed f) (Feed v)
+    ratio (FeedWitness _ (Feed f) (Feed asked)) = f / asked
+    keepIf better f old = case old of
+      Just o | not (better (f / v) (ratio o)) -> old
+      _ -> Just (witness f)
     raised new = case tooHigh w of
       Nothing -> TooHigh new new
       Just (TooHigh first worst) -> TooHigh first (if ratio new > ratio worst then new else worst)
@@ -276,13 +268,6 @@ isRound p = case p of
   Arc {from = a, to = b} -> abs (radius a - radius b) <= 2
   where
     radius (x, y) = sqrt (fromIntegral (x * x + y * y)) :: Double
-
--- | Frame and value with the larger value; the first one if they are equal.
-largerOf :: Int -> Double -> Maybe (Int, Double) -> Maybe (Int, Double)
-largerOf n v old = case old of
-  Just (_, known) | known >= v -> old
-  _ | v > 0 -> let pair = (n, v) in v `seq` Just pair
-  _ -> old
 
 -- | Feed along the path in mm\/min.
 alongPath :: Machine -> FramePath -> AskedFeed -> Double

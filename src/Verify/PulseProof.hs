@@ -4,6 +4,7 @@ module Verify.PulseProof
   ( PulseProof (..),
     PulseWitness (..),
     FeedWitness (..),
+    FeedExtremes (..),
     PulseFinding (..),
     isSound,
     toReports,
@@ -17,6 +18,7 @@ import Data.Text qualified as Text
 import Machine.Machine (Machine, MachineName (..))
 import Machine.Machine qualified as Machine
 import Pulse.ControllerRun (StopReason (..))
+import Pulse.RunMeasure (RunTotal)
 import Pulse.Steps (Pulses5)
 import Pulse.Steps qualified as Steps
 import Report.Report (Report (message), ReportCode, ReportPlace (..), report)
@@ -33,6 +35,15 @@ data PulseWitness = PulseWitness {frame :: Int, amount :: Double, promised :: Do
 data FeedWitness = FeedWitness {feedFrame :: Int, measured :: Feed, wanted :: Feed}
   deriving stock (Eq, Show)
 
+-- | Feeds that differ most from what is asked, in proportion: the mean feed of a frame, the least
+-- feed over a millimetre, and the highest feed over a millimetre.
+data FeedExtremes = FeedExtremes
+  { meanFeed :: Maybe FeedWitness,
+    leastFeed :: Maybe FeedWitness,
+    highestFeed :: Maybe FeedWitness
+  }
+  deriving stock (Eq, Show)
+
 -- | Proof of the pulses of a tape. Frames are given by their numbers, from 1.
 data PulseProof = PulseProof
   { -- | count of pulses on all axes
@@ -40,21 +51,10 @@ data PulseProof = PulseProof
     -- | largest deviations on lines and on arcs; Nothing without a pulse
     onLines :: Maybe PulseWitness,
     onArcs :: Maybe PulseWitness,
-    -- | feeds that differ most from what is asked, in proportion: the mean feed of a frame, the
-    -- least feed over a millimetre, and the highest feed over a millimetre
-    meanFeed :: Maybe FeedWitness,
-    leastFeed :: Maybe FeedWitness,
-    highestFeed :: Maybe FeedWitness,
-    -- | highest mean frequency of an axis within a frame, and the largest change from one frame to
-    -- the next, each with the number of its frame, in pulses per second
-    highestFrequency :: Maybe (Int, Double),
-    largestJump :: Maybe (Int, Double),
-    -- | count of frames between two feed moves for which the controller waited, and the first one
-    waits :: Int,
-    firstWait :: Maybe Int,
-    -- | time of all waits for the reader
-    waitTime :: Seconds,
-    runTime :: Seconds,
+    feeds :: FeedExtremes,
+    -- | measures of the whole run, and the frequency of its clock
+    total :: RunTotal,
+    clock :: Int,
     -- | sum of length by feed over all frames
     formulaTime :: Seconds,
     pulseFindings :: [PulseFinding]

@@ -26,7 +26,8 @@ spec = describe "the drawing of a run" $ do
   it "has the feeds that are measured (catches a mean in place of the highest feed)" $
     forAll ((,) lkiU <$> Generate.framesOf lkiU 4) $ \(machine, fs) ->
       let tape = Punch.write machine 0 fs
-          measures = maybe [] LazyList.toList (Controller.measured machine 1 0 tape)
+          measures =
+            maybe [] LazyList.toList (Controller.measured machine Controller.neutral 0 tape)
           feeds = [(least, most) | Just (_, least, most) <- map Measure.feeds measures]
        in fmap SpeedPlot.feedRange (columnsOf (const True) machine tape)
             === Just (Just (minimum (map fst feeds), maximum (map snd feeds)))
@@ -54,7 +55,8 @@ spec = describe "the drawing of a run" $ do
 -- | Columns of a tape; Nothing if the machine makes no pulses.
 columnsOf :: (Int -> Bool) -> Machine -> Tape -> Maybe TimeColumns
 columnsOf isShown machine tape =
-  fst . SpeedPlot.columns machine (clockOf machine) isShown <$> Controller.run machine 1 0 tape
+  fst . SpeedPlot.columns machine (clockOf machine) isShown
+    <$> Controller.run machine Controller.neutral 0 tape
 
 -- | Drawing of a tape.
 drawn :: (Int -> Bool) -> Machine -> Tape -> Text

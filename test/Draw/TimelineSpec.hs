@@ -79,7 +79,7 @@ timelines :: Gen JobTimeline
 timelines = do
   fs <- Generate.framesOf n55 4
   first <- choose (1, 4)
-  case Controller.run n55 1 0 (Punch.write n55 0 fs) of
+  case Controller.run n55 Controller.neutral 0 (Punch.write n55 0 fs) of
     Just run
       | Just found <- JobTimeline.collect n55 control (AtFeedMove (>= first)) run -> pure found
     _ -> timelines

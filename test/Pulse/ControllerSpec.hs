@@ -12,6 +12,7 @@ import Base.Region (Located (..))
 import Base.Result qualified as Result
 import Control.Motion qualified as Motion
 import Data.ByteString qualified as ByteString
+import Data.Map.Strict qualified as Map
 import Data.Maybe (fromMaybe, listToMaybe)
 import Frame.Frame (Frame (..), FrameMotion (..), PlannedFrame (..), Role (..))
 import Frame.Frame qualified as Frame
@@ -31,7 +32,8 @@ import Pulse.Controller qualified as Controller
 import Pulse.ControllerRun (ControllerRun (..), StopReason (..))
 import Pulse.ControllerRun qualified as ControllerRun
 import Pulse.FrameCompensation (switchRadii)
-import Pulse.RunMeasure (FrameMeasure, RunTotal (..))
+import Pulse.IntegratorFeed qualified as IntegratorFeed
+import Pulse.RunMeasure (FrameMeasure, JobLoad (..), RunTotal (..))
 import Pulse.RunMeasure qualified as Measure
 import Pulse.Steps (Pulses5 (..))
 import Pulse.Steps qualified as Steps
@@ -44,6 +46,7 @@ spec :: Spec
 spec = do
   describe "numbers of the sources" sources
   describe "feeds" feeds
+  describe "the jobs of n55" jobWaits
   describe "damaged tapes" damaged
   describe "cutter compensation" compensation
   describe "a path planner" planner
@@ -67,9 +70,10 @@ arc code sense (a, b) (c, d) =
     }
 
 measured :: Machine -> [Frame] -> ([FrameMeasure], RunTotal)
-measured machine fs = case Controller.measured machine 1 0 (Punch.write machine 0 fs) of
-  Just list -> (LazyList.toList list, LazyList.end list)
-  Nothing -> error "the machine has no controller"
+measured machine fs =
+  case Controller.measured machine Controller.neutral 0 (Punch.write machine 0 fs) of
+    Just list -> (LazyList.toList list, LazyList.end list)
+    Nothing -> error "the machine has no controller"
 
 seconds :: Machine -> Int -> Double
 seconds machine t = fromIntegral t / fromIntegral (fromMaybe 1 (Controller.ticksPerSecond machine))
@@ -101,7 +105,8 @@ withoutRamps = with $ \case
 sources :: Spec
 sources = do
   it "runs the leading axis of Контур at 900 Hz with П27, and at 33.4 Hz with П32" $ do
-    let hz code = map Measure.highestFrequency (fst (measured kontur3p [line code 3000 1000]))
+    let hz code =
+          map (maximum . Measure.frequencies) (fst (measured kontur3p [line code 3000 1000]))
     hz 27 `shouldSatisfy` all (isNear 0.001 900)
     hz 32 `shouldSatisfy` all (isNear 0.001 33.4)
   it "takes 6.67 s for the first move of the shaft, 6000 steps with П27" $
@@ -123,7 +128,7 @@ sources = do
         -- A digit of the third frame is changed: 0200 becomes 0300.
         at = 25 + 2 * (11 + 3) + 4
         bad = ByteString.take at rows <> ByteString.pack [3] <> ByteString.drop (at + 1) rows
-        list = Controller.measured kontur3p 1 0 (Tape bad)
+        list = Controller.measured kontur3p Controller.neutral 0 (Tape bad)
     fmap (map Measure.number . LazyList.toList) list `shouldBe` Just [1, 2]
     fmap (isUnreadable . stopReason . LazyList.end) list `shouldBe` Just True
   it "makes seven pulses of a seven" $
@@ -213,17 +218,52 @@ feedsBetween machine (low, high) code f =
   where
     asked = fromMaybe 0 (Machine.valueOf machine (FeedCode code))
 
+-- Jobs --------------------------------------------------------------------------------------------
+
+jobWaits :: Spec
+jobWaits =
+  it "wait no longer than their bounds (catches a job that is left out of a bound)" $
+    forAll (listOf1 (oneof [shortLine, roundFrame])) $ \fs ->
+      let found = loads (snd (measured n55 fs))
+       in conjoin
+            [ counterexample (show (jobName j, load, bound)) (longestWait load <= bound)
+              | Just (Integrating c) <- [Machine.controller n55],
+                -- 600 mm/min along one axis are 1000 pulses a second.
+                (j, Just bound) <- IntegratorFeed.waitBounds c 1000,
+                Just load <- [Map.lookup (jobName j) found]
+            ]
+  where
+    shortLine = do
+      code <- choose (30, 600)
+      x <- choose (-400, 400)
+      y <- choose (1, 400)
+      t <- elements [[], [(CommandName "T", 3)]]
+      pure (line code x y) {commands = t}
+    roundFrame = do
+      (from, to, sense) <- arcFrame 20 400
+      code <- choose (30, 600)
+      pure (arc code sense from to)
+
 -- Damaged tapes -----------------------------------------------------------------------------------
 
 damaged :: Spec
-damaged =
+damaged = do
+  it "show what the cutter then does, if the reader cannot see the damage" $ do
+    -- The digit 7 of the first increment, 0070, becomes a 9 on a tape without a check digit.
+    let Tape rows = Punch.write lkp01f 0 [line 5 70 20, line 5 0 10]
+        at = 25 + 2
+        bad = ByteString.take at rows <> ByteString.pack [15] <> ByteString.drop (at + 1) rows
+        ends tape = map Measure.positionAfter . LazyList.toList <$> run tape
+        run tape = Controller.measured lkp01f Controller.neutral 0 (Tape tape)
+    ends rows `shouldBe` Just [Pulses5 70 20 0 0 0, Pulses5 70 30 0 0 0]
+    ends bad `shouldBe` Just [Pulses5 90 20 0 0 0, Pulses5 90 30 0 0 0]
   it "never crash a controller, or make it run for ever (catches an endless frame)" $
     withMaxSuccess 10000 $
       forAll ((,) <$> elements [lkp01f, kontur3p, lkiU, n55] <*> choose (0, 3)) $ \(machine, n) ->
         forAll (vectorOf (n + 1) (choose (0, 1000000))) $ \changes ->
           let Tape rows = Punch.write machine 0 (framesOf machine)
               bad = foldr (uncurry changed) rows (zip changes (map (`div` 7) changes))
-              run = Controller.run machine 1 0 (Tape bad)
+              run = Controller.run machine Controller.neutral 0 (Tape bad)
            in maybe (property False) (isProgress 0 (40000000 :: Int)) run
   where
     changed at value rows =
@@ -284,7 +324,7 @@ follows edge equidistant =
   where
     tape = Punch.write n55 (Frame.start edge) (map frame (Frame.plannedFrames edge))
     console = Console {correction = 1, radii = switchRadii n55 (Frame.plannedFrames edge)}
-    run = Controller.runWith (withoutJobs n55) console (Frame.start edge) tape
+    run = Controller.run (withoutJobs n55) console (Frame.start edge) tape
     cutting = [n | (n, p) <- zip [1 ..] (Frame.plannedFrames edge), Cutting _ <- [role p]]
     positions = maybe [] (pulsesIn (`elem` cutting) (Frame.start edge)) run
     path =

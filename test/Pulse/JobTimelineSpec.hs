@@ -85,7 +85,7 @@ cases = do
   pure (fs, a, a + l)
 
 runOf :: [Frame] -> ControllerRun
-runOf fs = case Controller.run n55 1 0 (Punch.write n55 0 fs) of
+runOf fs = case Controller.run n55 Controller.neutral 0 (Punch.write n55 0 fs) of
   Just run -> run
   Nothing -> error "n55 has no controller"
 

@@ -41,7 +41,7 @@ spec = do
         counterexample (show (found, real)) (all (`elem` real) found)
   it "a frame in a ramp ends with its last pulse (catches an end that waits for one more cycle)" $
     forAll (shortFrames lkiU) $ \fs ->
-      fmap lateEnds (Controller.run lkiU 1 0 (tapeOf lkiU fs)) === Just []
+      fmap lateEnds (Controller.run lkiU Controller.neutral 0 (tapeOf lkiU fs)) === Just []
   it "finds the dwell after a frame of one pulse on n55" $
     let fs = [line n55 2000 0, line n55 1 0, quarter n55 2000]
      in ReaderDwell.dwells n55 (inTurn n55 (tapeOf n55 fs)) `shouldBe` [3]
@@ -59,7 +59,7 @@ spec = do
     law machine holds =
       forAll (shortFrames machine) $ \fs ->
         let tape = tapeOf machine fs
-            (measures, end) = allOf (Controller.measured machine 1 0 tape)
+            (measures, end) = allOf (Controller.measured machine Controller.neutral 0 tape)
             real = [number m | m <- measures, isInCut m, waitedFor m > 0]
             found = ReaderDwell.dwells machine (inTurn machine tape)
          in fmap (isWhole . stopReason) end === Just True

@@ -74,14 +74,15 @@ spec = describe "samples of a run" $ do
 both :: Machine -> [Frame] -> ([RunSample], [FrameMeasure])
 both machine fs = (samplesOf (const True) machine fs, measures)
   where
-    measures = maybe [] LazyList.toList (Controller.measured machine 1 0 (Punch.write machine 0 fs))
+    tape = Punch.write machine 0 fs
+    measures = maybe [] LazyList.toList (Controller.measured machine Controller.neutral 0 tape)
 
 samplesOf :: (Int -> Bool) -> Machine -> [Frame] -> [RunSample]
 samplesOf isShown machine fs =
   maybe
     []
     (LazyList.toList . RunSample.samples machine (clockOf machine) isShown)
-    (Controller.run machine 1 0 (Punch.write machine 0 fs))
+    (Controller.run machine Controller.neutral 0 (Punch.write machine 0 fs))
 
 clockOf :: Machine -> Int
 clockOf = fromMaybe 1 . Controller.ticksPerSecond

@@ -38,7 +38,7 @@ spec = do
     forM_ pulsing $ \machine ->
       it ("on " <> nameOf machine <> " (catches a promise that is too small)") $
         forAll (framesFor machine) $ \fs ->
-          let proof = FromPulses.prove machine 0 (Punch.write machine 0 fs)
+          let proof = FromPulses.prove machine Controller.neutral 0 (Punch.write machine 0 fs)
            in fmap (filter (not . isStop) . pulseFindings) proof === Just []
   describe "a fault of a run is found" $
     forM_ [lkp01f, lkiUn, n55] $ \machine -> do
@@ -70,8 +70,9 @@ spec = do
       let run = runOf machine [circle machine]
       pulseFindings (proofOf machine run) `shouldBe` []
       pulseFindings (proofOf machine (stepless run)) `shouldSatisfy` any isOff
-  it "an unreadable frame is a stop" $
-    fmap pulseFindings (FromPulses.prove lkp01f 0 (Punch.write n55 0 (zigzag n55)))
+  it "an unreadable frame is a stop" $ do
+    let tape = Punch.write n55 0 (zigzag n55)
+    fmap pulseFindings (FromPulses.prove lkp01f Controller.neutral 0 tape)
       `shouldSatisfy` maybe False (any isStop)
   examples
 
@@ -161,7 +162,7 @@ lowFeed machine =
     ]
 
 runOf :: Machine -> [Frame] -> ControllerRun
-runOf machine fs = case Controller.run machine 1 0 (Punch.write machine 0 fs) of
+runOf machine fs = case Controller.run machine Controller.neutral 0 (Punch.write machine 0 fs) of
   Just run -> run
   Nothing -> Stopped 0 TapeEnds
 
