@@ -224,7 +224,7 @@ readInTurn machine start (Tape raw) = case firstFrameRow source of
       hasPositions source
         && either (const True) ModalState.changesHeight (read machine start (Tape raw))
     go !cursor list = case list of
-      LazyList.End fault -> LazyList.End ((uncurry (damage source)) <$> fault)
+      LazyList.End fault -> LazyList.End (uncurry (damage source) <$> fault)
       LazyList.Next (state, f, after) more ->
         let !cursor' = movedTo source after cursor
          in LazyList.Next
