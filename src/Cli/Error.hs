@@ -14,6 +14,7 @@ where
 import Base.Decimal qualified as Decimal
 import Data.Text (Text)
 import Data.Text qualified as Text
+import Pulse.FramePath (AskedFeed, feedText)
 import Report.Report (Report (..), ReportPlace (..), report)
 import Report.Report qualified as Report
 
@@ -52,7 +53,7 @@ data Error
     NoSuchOverride Int [Int]
   | -- | The controller stops before a frame that it cannot run: the number of the frame, its feed,
     -- and the largest feed that it can run there.
-    FeedTooHigh Int Double Double
+    FeedTooHigh Int AskedFeed AskedFeed
   | -- | A frame switches cutter compensation on, but the switch for the radius is not set: the
     -- number of the frame, and that of the switch.
     SwitchMissing Int Int
@@ -154,12 +155,12 @@ toReport err = case err of
         InFile
         ( "the controller cannot run frame "
             <> Decimal.whole n
-            <> ": its feed "
-            <> Decimal.short 2 asked
+            <> ": its feed of "
+            <> feedText asked
             <> " is too high"
         )
     )
-      { hints = ["The largest feed that it can run there is " <> Decimal.short 2 most <> "."]
+      { hints = ["The largest feed that it can run there is " <> feedText most <> "."]
       }
   SwitchMissing n k ->
     ( wrong

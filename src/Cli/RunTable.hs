@@ -110,6 +110,7 @@ eachShown isShown part = go
 askedText :: AskedFeed -> Text
 askedText a = case a of
   Along v -> Decimal.short 2 v
+  Turning v -> Decimal.short 2 v
   OfLeadingAxis hz -> Decimal.short 1 hz <> " Hz"
 
 -- | Time in seconds with three decimals.
@@ -149,6 +150,7 @@ frameJson machine clock isShown = eachShown isShown (jsonLine . value)
       object [Key.fromText name .= v | (k, name) <- axisNames machine, v <- take 1 (drop k hz)]
     askedJson a = case a of
       Along v -> object ["mm/min" .= v]
+      Turning v -> object ["degrees/min" .= v]
       OfLeadingAxis hz -> object ["Hz" .= hz]
 
 inSeconds :: Int -> Tick -> Double

@@ -17,7 +17,7 @@ import Data.Text (Text)
 import Frame.Frame (Frame)
 import Machine.Controller (ControlJob)
 import Machine.FrameLayout (CommandName)
-import Pulse.FramePath (FramePath)
+import Pulse.FramePath (AskedFeed, FramePath)
 import Pulse.Steps (Steps)
 import Tape.Damage (Damage)
 
@@ -63,9 +63,8 @@ data StopReason
   | -- | A frame cannot be read.
     Unreadable Damage
   | -- | The controller cannot run the feed of this frame: the number of the frame, its feed, and
-    -- the largest feed that it can run in this frame. Both are in mm\/min, or in pulses per
-    -- second.
-    TooFast Int Double Double
+    -- the largest feed that it can run in this frame.
+    TooFast Int AskedFeed AskedFeed
   | -- | The switch that corrects the feed is at 0: the number of the frame.
     FeedHeld Int
   | -- | A frame switches cutter compensation on, but the switch for the cutter's radius is not set:

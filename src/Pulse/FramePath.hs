@@ -12,15 +12,21 @@ module Pulse.FramePath
     leadingAxis,
     allPulses,
     endOf,
-    askedFeed,
     AskedFeed (..),
+    askedFeed,
+    feedOn,
+    feedValue,
+    feedAlong,
+    feedText,
   )
 where
 
+import Base.Decimal qualified as Decimal
 import Base.PulseVector (Pulses2 (..), Pulses3 (..))
 import Base.Quantity (Mm (..), Pulses (..), degrees)
 import Control.Motion qualified as Motion
 import Data.Maybe (fromMaybe)
+import Data.Text (Text)
 import Frame.Frame (Frame (..), FrameMotion (..))
 import Geometry.Carrier (Sense (..))
 import Machine.Machine
@@ -106,17 +112,17 @@ endOf path = case path of
 
 -- | Feed that a frame asks.
 data AskedFeed
-  = -- | in mm\/min along the path; in degrees a minute if only rotary axes move
+  = -- | in mm\/min along the path
     Along Double
+  | -- | in degrees a minute, because only rotary axes move
+    Turning Double
   | -- | in pulses per second of the leading axis
     OfLeadingAxis Double
   deriving stock (Eq, Show)
 
 -- | Feed that a frame asks. A rapid move asks the feed of the machine's rapid moves.
 askedFeed :: Machine -> Frame -> AskedFeed
-askedFeed machine f = case Machine.feedMeasure (Machine.feeds machine) of
-  AlongPath -> Along value
-  LeadingAxis -> OfLeadingAxis value
+askedFeed machine f = feedOn machine (fromMaybe (Line (Pulses5 0 0 0 0 0)) (fromFrame f)) value
   where
     code = case motion f of
       Rapid -> Machine.rapidCode machine
@@ -124,3 +130,41 @@ askedFeed machine f = case Machine.feedMeasure (Machine.feeds machine) of
       Linear -> feedCode f
       Circular _ -> feedCode f
     value = fromMaybe 0 (Machine.valueOf machine code)
+
+-- | Feed on a path, in the unit in which the machine measures it.
+feedOn :: Machine -> FramePath -> Double -> AskedFeed
+feedOn machine path = case Machine.feedMeasure (Machine.feeds machine) of
+  LeadingAxis -> OfLeadingAxis
+  AlongPath -> case path of
+    Line (Pulses5 0 0 0 a b) | a /= 0 || b /= 0 -> Turning
+    Line _ -> Along
+    Arc {} -> Along
+
+-- | Feed as a number in its own unit.
+feedValue :: AskedFeed -> Double
+feedValue asked = case asked of
+  Along v -> v
+  Turning v -> v
+  OfLeadingAxis v -> v
+
+-- | Feed along a path in mm\/min, or in degrees a minute if only rotary axes move. 'Nothing' for a
+-- frequency on an arc or on a line without pulses.
+feedAlong :: Machine -> FramePath -> AskedFeed -> Maybe Double
+feedAlong machine path asked = case asked of
+  Along v -> Just v
+  Turning v -> Just v
+  OfLeadingAxis hz -> case path of
+    Line d
+      | n > 0 -> Just (60 * hz * pathLength machine path / fromIntegral n)
+      where
+        n = leadingPulses d
+    Line _ -> Nothing
+    Arc {} -> Nothing
+
+-- | Feed with its unit, as reports show it.
+feedText :: AskedFeed -> Text
+feedText asked =
+  Decimal.short 2 (feedValue asked) <> case asked of
+    Along _ -> " mm/min"
+    Turning _ -> "°/min"
+    OfLeadingAxis _ -> " Hz"

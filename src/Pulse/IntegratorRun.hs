@@ -363,9 +363,7 @@ endFeed s = case (stage s, buffer s) of
 -- | Corrected feed that a frame asks.
 askedFeed :: Setup -> PreparedFrame -> Double
 askedFeed k f =
-  correction k * case FramePath.askedFeed (machine k) (rowFrame f) of
-    FramePath.Along v -> v
-    FramePath.OfLeadingAxis v -> v
+  correction k * FramePath.feedValue (FramePath.askedFeed (machine k) (rowFrame f))
 
 -- | Frame as it is on the tape.
 rowFrame :: PreparedFrame -> Frame
@@ -425,11 +423,12 @@ moving :: Double -> FramePath -> [FramePath] -> Control -> ControllerRun
 moving asked path later s
   | asked <= 0 = Stopped t (FeedHeld (number s))
   | reachable > largest =
-    Stopped t (TooFast (number s) (asked / correction k) (largest / correction k))
+    Stopped t (TooFast (number s) (beforeOverride asked) (beforeOverride largest))
   | otherwise = proceed (onPlan id s {stage = Moving started later, feed = first})
   where
     t = tick (dispatcher s)
     k = setup s
+    beforeOverride v = FramePath.feedOn (machine k) path (v / correction k)
     started = Feed.plan (machine k) (control k) cyclesAhead path reachable
     largest = Feed.largestFeed (control k) path (Feed.plan (machine k) (control k) 0 path asked)
     first = Feed.initial (control k) reachable (feed s)

@@ -80,6 +80,7 @@ timed machine control place f isFollowed = (m, place')
     long = maybe 0 (FramePath.pathLength machine) path
     v = case FramePath.askedFeed machine f of
       Along feed -> feed / 60
+      Turning feed -> feed / 60
       OfLeadingAxis _ -> 0
     (whole, braking) = maybe (0, 0) (\p -> travelTime machine control p long v) path
     lasts = case corners control of

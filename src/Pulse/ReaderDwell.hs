@@ -38,7 +38,7 @@ import Machine.Machine qualified as Machine
 import Pulse.ControllerRun (Tick)
 import Pulse.FeedIntegrator qualified as FeedIntegrator
 import Pulse.FrameCompensation (PreparedFrame (..))
-import Pulse.FramePath (AskedFeed (..), FramePath (..))
+import Pulse.FramePath (FramePath (..))
 import Pulse.FramePath qualified as FramePath
 import Pulse.IntegratorFeed qualified as Feed
 import Pulse.RunMeasure qualified as RunMeasure
@@ -162,9 +162,7 @@ integratorTimes machine c =
 integratorTicks :: Machine -> IntegratorControl -> Frame -> FramePath -> Tick
 integratorTicks machine c f path = ceiling (seconds * fromIntegral (clock c)) + 1
   where
-    v = case FramePath.askedFeed machine f of
-      Along asked -> asked / 60
-      OfLeadingAxis asked -> asked / 60
+    v = FramePath.feedValue (FramePath.askedFeed machine f) / 60
     a = pathAcceleration c
     intervals = [t | ControlJob {request = AtAcceleration (Seconds t)} <- jobs c]
     long = longest machine path

@@ -26,7 +26,7 @@ import Pulse.ControllerRun
   )
 import Pulse.FeedWindow (FeedWindow)
 import Pulse.FeedWindow qualified as FeedWindow
-import Pulse.FramePath (AskedFeed (..), FramePath (..))
+import Pulse.FramePath (FramePath (..))
 import Pulse.FramePath qualified as FramePath
 import Pulse.Steps (Pulses5 (..), Steps)
 import Pulse.Steps qualified as Steps
@@ -192,7 +192,7 @@ closing machine clock t f
   | otherwise =
     [ RunSample FeedAsked begin t v
       | Just p <- [path s],
-        Just v <- [askedAlong machine s p]
+        Just v <- [FramePath.feedAlong machine p (FramePath.askedFeed machine (frameStarted s))]
     ]
       <> [RunSample (feedKind f) (FeedWindow.since w) t lastFeed | FeedWindow.since w < t]
       <> [ RunSample (AxisFrequency k) from' to' v
@@ -224,15 +224,3 @@ feedKind :: FrameSampler -> SampleKind
 feedKind f = case path (start f) of
   Just (Line (Pulses5 0 0 0 _ _)) -> TurningMeasured
   _ -> FeedMeasured
-
--- | Feed along the path that a frame asks, in mm\/min or in degrees a minute. Nothing if it asks a
--- frequency and has no length.
-askedAlong :: Machine -> FrameStart -> FramePath -> Maybe Double
-askedAlong machine s p = case FramePath.askedFeed machine (frameStarted s) of
-  Along v -> Just v
-  OfLeadingAxis hz -> case p of
-    Line d
-      | n > 0 -> Just (60 * hz * FramePath.pathLength machine p / fromIntegral n)
-      where
-        n = FramePath.leadingPulses d
-    _ -> Nothing

@@ -138,7 +138,8 @@ inFrame setup rest f path more = case path of
     | otherwise -> FrameEnds (now rest) (after here)
   Just p
     | correction setup <= 0 -> Stopped (now rest) (FeedHeld (number rest))
-    | frequency > fromIntegral ticks -> Stopped (now rest) (TooFast (number rest) asked largest)
+    | frequency > fromIntegral ticks ->
+      Stopped (now rest) (TooFast (number rest) (withUnit value) (withUnit largest))
     | otherwise ->
       moving
         Profile
@@ -152,7 +153,7 @@ inFrame setup rest f path more = case path of
         here
     where
       (value, perFeed) = rateOf (machine setup) (control setup) p f
-      asked = value
+      withUnit = FramePath.feedOn (machine setup) p
       frequency = value * correction setup * perFeed
       largest = fromIntegral ticks / perFeed / correction setup
   where
@@ -166,6 +167,7 @@ rateOf :: Machine -> StepControl -> FramePath -> Frame -> (Double, Double)
 rateOf machine control path f = case FramePath.askedFeed machine f of
   OfLeadingAxis hz -> (hz, 1)
   Along v -> (v, 1 / 60 * cyclesPerLength)
+  Turning v -> (v, 1 / 60 * cyclesPerLength)
   where
     cyclesPerLength = case (path, interpolation control) of
       (Line d, DifferentialAnalyser) -> fromIntegral (FramePath.leadingPulses d) / long

@@ -32,7 +32,7 @@ import Pulse.ControllerRun
   )
 import Pulse.ControllerRun qualified as ControllerRun
 import Pulse.FeedWindow qualified as FeedWindow
-import Pulse.FramePath (AskedFeed (..), FramePath (Arc, Line, from, to))
+import Pulse.FramePath (FramePath (Arc, Line, from, to))
 import Pulse.FramePath qualified as FramePath
 import Pulse.PathDeviation (PathTrace)
 import Pulse.PathDeviation qualified as PathDeviation
@@ -215,7 +215,7 @@ allFeeds machine method = go (FeedWatch (FeedExtremes Nothing Nothing Nothing) N
 withMeasure :: Machine -> InterpolationMethod -> FrameMeasure -> FeedWatch -> FeedWatch
 withMeasure machine method m w = case (FramePath.fromFrame frame', Measure.asked m) of
   (Just p, Just asked) ->
-    let v = alongPath machine p asked
+    let v = fromMaybe 0 (FramePath.feedAlong machine p asked)
         -- A braking frame begins with the feed at the end of the frame before.
         most = if Frame.braking frame' then max v (before w) else v
         asked' = Demand {demandPath = p, along = v, limit = feedLimit machine method p * most}
@@ -268,15 +268,6 @@ isRound p = case p of
   Arc {from = a, to = b} -> abs (radius a - radius b) <= 2
   where
     radius (x, y) = sqrt (fromIntegral (x * x + y * y)) :: Double
-
--- | Feed along the path in mm\/min.
-alongPath :: Machine -> FramePath -> AskedFeed -> Double
-alongPath machine p asked = case asked of
-  Along v -> v
-  OfLeadingAxis hz -> case p of
-    Line d ->
-      60 * hz * FramePath.pathLength machine p / fromIntegral (max 1 (FramePath.leadingPulses d))
-    Arc {} -> 0
 
 -- | Largest feed that the controller may have over a window of a path, as a multiple of the feed
 -- that the frame asks.

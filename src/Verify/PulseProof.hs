@@ -18,6 +18,7 @@ import Data.Text qualified as Text
 import Machine.Machine (Machine, MachineName (..))
 import Machine.Machine qualified as Machine
 import Pulse.ControllerRun (StopReason (..))
+import Pulse.FramePath (feedText)
 import Pulse.RunMeasure (RunTotal)
 import Pulse.Steps (Pulses5)
 import Pulse.Steps qualified as Steps
@@ -147,9 +148,9 @@ stopReport why = case why of
     (wrong "E0721" ("the controller stops before " <> frameWord n <> ": its feed is too high"))
       { message =
           [ "It asks "
-              <> Decimal.short 2 asked
+              <> feedText asked
               <> "; the controller can run "
-              <> Decimal.short 2 most
+              <> feedText most
               <> " there."
           ]
       }

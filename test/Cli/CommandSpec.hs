@@ -247,6 +247,12 @@ spec = do
         bad `shouldBe` ExitFailure 3
         table' `shouldSatisfy` isInfixOf "verdict on the pulses  WRONG"
         err `shouldSatisfy` isInfixOf "error[E0721]: the controller stops before frame 3"
+        (refused, _, err'') <- partc ["run", "examples/flange.part", "-t", machine]
+        refused `shouldBe` ExitFailure 1
+        err''
+          `shouldSatisfy` isInfixOf
+            "error[E0602]: the controller cannot run frame 3: its feed of 60 mm/min is too high"
+        err'' `shouldSatisfy` isInfixOf "The largest feed that it can run there is 40 mm/min."
         (none, _, err') <- partc ["verify", "examples/flange.part", "-t", "iso6983", "--pulses"]
         none `shouldBe` ExitFailure 1
         err' `shouldSatisfy` isInfixOf "error[E0815]"

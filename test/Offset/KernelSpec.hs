@@ -2,7 +2,9 @@
 module Offset.KernelSpec (spec) where
 
 import Base.Quantity (Mm (..))
+import CaseCount (askedCount)
 import Data.List (tails)
+import Data.Maybe (fromMaybe)
 import Data.Primitive.PrimArray (sizeofPrimArray)
 import Generate.Outline (Case (..), Family (..), turned)
 import Generate.Outline qualified as Generate
@@ -16,7 +18,6 @@ import Offset.Judge qualified as Judge
 import Offset.Kernel (Corners (..), OffsetFault (..), OffsetRequest (..))
 import Offset.Kernel qualified as Kernel
 import Offset.Loop qualified as Loop
-import System.Environment (lookupEnv)
 import Test.Hspec
 import Test.QuickCheck
 import Test.QuickCheck.Gen (unGen)
@@ -24,7 +25,7 @@ import Test.QuickCheck.Random (mkQCGen)
 
 spec :: Spec
 spec = do
-  count <- runIO (maybe 3000 read <$> lookupEnv "PARTC_CONTOURS")
+  count <- runIO (fromMaybe 3000 <$> askedCount "PARTC_CONTOURS")
   describe "laws of the offset kernel" $ do
     each
       count

@@ -10,6 +10,7 @@ import Base.PulseVector (Pulses2 (..), Pulses3 (..))
 import Base.Quantity (Mm (..), Pulses (..), Rad (..))
 import Base.Region (Located (..))
 import Base.Result qualified as Result
+import CaseCount (askedCount)
 import Control.Motion qualified as Motion
 import Data.ByteString qualified as ByteString
 import Data.Map.Strict qualified as Map
@@ -32,6 +33,7 @@ import Pulse.Controller qualified as Controller
 import Pulse.ControllerRun (ControllerRun (..), StopReason (..))
 import Pulse.ControllerRun qualified as ControllerRun
 import Pulse.FrameCompensation (switchRadii)
+import Pulse.FramePath (feedText)
 import Pulse.IntegratorFeed qualified as IntegratorFeed
 import Pulse.RunMeasure (FrameMeasure, JobLoad (..), RunTotal (..))
 import Pulse.RunMeasure qualified as Measure
@@ -47,7 +49,7 @@ spec = do
   describe "numbers of the sources" sources
   describe "feeds" feeds
   describe "the jobs of n55" jobWaits
-  describe "damaged tapes" damaged
+  describe "damaged tapes" . damaged . fromMaybe 10000 =<< runIO (askedCount "PARTC_TAPES")
   describe "cutter compensation" compensation
   describe "a path planner" planner
 
@@ -154,6 +156,18 @@ feeds = do
                     conjoin [isEven machine asked x y least, isEven machine asked x y most]
               | m <- fst (measured (withoutRamps machine) [line code x y])
             ]
+  it "that are too high are refused, with their unit" $ do
+    let refusal machine f = case stopReason (snd (measured (slow machine) [f])) of
+          TooFast n asked most -> Just (n, feedText asked, feedText most)
+          _ -> Nothing
+        slow = with $ \case
+          Stepping c -> Stepping c {stepClock = 800}
+          Integrating c -> Integrating c {clock = 1000}
+          Planning c -> Planning c
+        turning = (line 5000 0 0) {turn = Pulses2 90000 0}
+    refusal kontur3p (line 27 3000 1000) `shouldBe` Just (1, "900 Hz", "800 Hz")
+    refusal n55 (line 120 3000 0) `shouldBe` Just (1, "120 mm/min", "66.67 mm/min")
+    refusal n55 turning `shouldBe` Just (1, "5000°/min", "6.67°/min")
   it "of n55 are within 2.5 percent on arcs of 2 mm and more (catches a wrong direction)" $
     forAll (arcFrame 200 3000) $ \(from, to, sense) ->
       forAll (choose (60, 1500)) $ \code ->
@@ -246,8 +260,8 @@ jobWaits =
 
 -- Damaged tapes -----------------------------------------------------------------------------------
 
-damaged :: Spec
-damaged = do
+damaged :: Int -> Spec
+damaged tapes = do
   it "show what the cutter then does, if the reader cannot see the damage" $ do
     -- The digit 7 of the first increment, 0070, becomes a 9 on a tape without a check digit.
     let Tape rows = Punch.write lkp01f 0 [line 5 70 20, line 5 0 10]
@@ -258,7 +272,7 @@ damaged = do
     ends rows `shouldBe` Just [Pulses5 70 20 0 0 0, Pulses5 70 30 0 0 0]
     ends bad `shouldBe` Just [Pulses5 90 20 0 0 0, Pulses5 90 30 0 0 0]
   it "never crash a controller, or make it run for ever (catches an endless frame)" $
-    withMaxSuccess 10000 $
+    withMaxSuccess tapes $
       forAll ((,) <$> elements [lkp01f, kontur3p, lkiU, n55] <*> choose (0, 3)) $ \(machine, n) ->
         forAll (vectorOf (n + 1) (choose (0, 1000000))) $ \changes ->
           let Tape rows = Punch.write machine 0 (framesOf machine)

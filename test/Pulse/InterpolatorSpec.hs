@@ -8,7 +8,9 @@ module Pulse.InterpolatorSpec
   )
 where
 
+import CaseCount (askedCount)
 import Data.List (foldl', minimumBy, sortOn)
+import Data.Maybe (fromMaybe)
 import Data.Ord (comparing)
 import Machine.Controller (InterpolationMethod (..))
 import Pulse.FramePath (FramePath (..))
@@ -19,14 +21,16 @@ import Pulse.Steps qualified as Steps
 import Test.Hspec
 import Test.QuickCheck
 
+-- | PARTC_PATHS sets another number of random paths of up to a million pulses.
 spec :: Spec
 spec = do
-  describe "a digital differential analyser" (laws DifferentialAnalyser 0.5)
-  describe "an evaluation function" (laws EvaluationFunction (sqrt 0.5))
+  paths <- fromMaybe 100 <$> runIO (askedCount "PARTC_PATHS")
+  describe "a digital differential analyser" (laws paths DifferentialAnalyser 0.5)
+  describe "an evaluation function" (laws paths EvaluationFunction (sqrt 0.5))
 
 -- | The laws of a method whose distance from the path is at most @bound@ pulses.
-laws :: InterpolationMethod -> Double -> Spec
-laws method bound = do
+laws :: Int -> InterpolationMethod -> Double -> Spec
+laws paths method bound = do
   it
     "keeps to all lines up to 200 by 200 pulses, and uses its bound (catches a remainder that does \
     \not start at one half)"
@@ -47,7 +51,7 @@ laws method bound = do
     \its end)"
     $ faultsIn method [Arc c a b | a <- disc 12, b <- disc 12, c <- [False, True]] `shouldBe` []
   it "keeps to random lines and arcs up to a million pulses (catches an overflow of a number)" $
-    forAll (longPath 1000000) (isSound method)
+    withMaxSuccess paths (forAll (longPath 1000000) (isSound method))
   it
     "makes the pulses of a model in exact fractions (catches an error in the way the evaluation is \
     \carried on)"

@@ -6,6 +6,7 @@ import Base.Quantity (Mm (..), Pulses (..))
 import Base.Region (Located (..))
 import Base.Result (Result (..))
 import Base.Result qualified as Result
+import CaseCount (askedCount)
 import Compile (Analysis (Analysis), Compiled (Compiled))
 import Compile qualified
 import Data.Foldable (for_)
@@ -40,7 +41,6 @@ import Test.Hspec
 import Test.Hspec.QuickCheck (modifyArgs)
 import Test.QuickCheck
 import Text.Printf (printf)
-import Text.Read (readMaybe)
 import Toolpath.FromPart qualified as Toolpath
 import Toolpath.Toolpath (Toolpath)
 import Toolpath.Toolpath qualified as Toolpath
@@ -53,7 +53,7 @@ import Verify.TapePair qualified as TapePair
 -- are always the same.
 spec :: Spec
 spec = do
-  asked <- runIO ((>>= readMaybe) <$> lookupEnv "PARTC_TAPES")
+  asked <- runIO (askedCount "PARTC_TAPES")
   modifyArgs (if isNothing asked then fixed else id) (laws (fromMaybe 5000 asked))
 
 laws :: Int -> Spec

@@ -2,6 +2,7 @@
 module Verify.OwnTapeSpec (spec) where
 
 import Base.Result qualified as Result
+import CaseCount (askedCount)
 import Compile qualified
 import Data.Maybe (fromMaybe, isNothing)
 import Data.Text qualified as Text
@@ -10,18 +11,16 @@ import Generate.MachinedText qualified as MachinedText
 import Machines qualified
 import Project.LoadedProgram qualified as LoadedProgram
 import Report.Report qualified as Report
-import System.Environment (lookupEnv)
 import Test.Hspec
 import Test.Hspec.QuickCheck (modifyArgs)
 import Test.QuickCheck
-import Text.Read (readMaybe)
 import Verify.Proof qualified as Proof
 
 -- | PARTC_PROGRAMS sets another number of programs. They are then random; without it, the programs
 -- are always the same.
 spec :: Spec
 spec = do
-  asked <- runIO ((>>= readMaybe) <$> lookupEnv "PARTC_PROGRAMS")
+  asked <- runIO (askedCount "PARTC_PROGRAMS")
   let programs = fromMaybe 300 asked
   modifyArgs (if isNothing asked then fixed else id)
     . it
