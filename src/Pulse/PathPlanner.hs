@@ -19,13 +19,14 @@ where
 import Base.LazyList (LazyList)
 import Base.LazyList qualified as LazyList
 import Base.Quantity (Mm (..))
+import Data.Maybe (fromMaybe)
 import Frame.Frame (Frame)
 import Frame.Frame qualified as Frame
 import Machine.Controller (CornerPolicy (..), PathControl (..))
 import Machine.Machine (Axis (X), CommandName, Machine)
 import Machine.Machine qualified as Machine
 import Pulse.ControllerRun (StopReason (..))
-import Pulse.FramePath (AskedFeed (..), FramePath (..))
+import Pulse.FramePath (FramePath (..))
 import Pulse.FramePath qualified as FramePath
 import Pulse.RunMeasure (FrameMeasure (..), RunTotal (..))
 import Pulse.RunMeasure qualified as RunMeasure
@@ -78,10 +79,8 @@ timed machine control place f isFollowed = (m, place')
   where
     path = FramePath.fromFrame f
     long = maybe 0 (FramePath.pathLength machine) path
-    v = case FramePath.askedFeed machine f of
-      Along feed -> feed / 60
-      Turning feed -> feed / 60
-      OfLeadingAxis _ -> 0
+    asked' = FramePath.askedFeed machine f
+    v = fromMaybe 0 (path >>= \p -> FramePath.feedAlong machine p asked') / 60
     (whole, braking) = maybe (0, 0) (\p -> travelTime machine control p long v) path
     lasts = case corners control of
       Blending | isFollowed -> whole - braking
@@ -107,7 +106,7 @@ timed machine control place f isFollowed = (m, place')
           isInCut = False,
           positionAfter = at place',
           pulses = magnitude d,
-          asked = FramePath.askedFeed machine f <$ path,
+          asked = asked' <$ path,
           feeds = if whole > 0 then Just (mean, 0, 60 * highest) else Nothing,
           frequencies = [],
           jumps = [],
