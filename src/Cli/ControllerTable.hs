@@ -48,6 +48,7 @@ stepRows c =
       [["reader", "none: the controller works away from the machine"]]
       readerRows
       (stepReader c)
+    <> limitRows (stepLimits c)
 
 integratorRows :: IntegratorControl -> [[Text]]
 integratorRows c =
@@ -67,6 +68,7 @@ integratorRows c =
          ],
          ["correction switches", Decimal.whole (switches c)]
        ]
+    <> limitRows (driveLimits c)
     <> [ [ "job " <> jobName j,
            Decimal.whole (duration j)
              <> " ticks, priority "
@@ -90,6 +92,13 @@ integratorRows c =
 -- | Frequency of the leading axis for which the waits of the jobs are shown.
 shownFrequency :: Double
 shownFrequency = 1000
+
+limitRows :: FrequencyLimits -> [[Text]]
+limitRows l =
+  [["highest frequency of an axis", number hz <> " Hz"] | Just hz <- [highestFrequency l]]
+    <> [ ["largest jump between two frames", number hz <> " Hz"]
+         | Just hz <- [largestJump l]
+       ]
 
 readerRows :: TapeReader -> [[Text]]
 readerRows r =

@@ -11,6 +11,7 @@ import Cli.Table qualified as Table
 import Data.List (sortOn)
 import Data.Ord (Down (..))
 import Data.Text (Text)
+import Machine.Controller (FrequencyLimits (..), noLimits)
 import Pulse.RunMeasure (FrequencyPeak (..), RunTotal (..))
 import Verify.PulseProof (FeedWitness (..), PulseProof, PulseWitness (..))
 import Verify.PulseProof qualified as Proof
@@ -31,9 +32,9 @@ pulseProof p =
              feedRow "least over a millimetre" (Proof.leastFeed (Proof.feeds p)),
              feedRow "highest over a millimetre" (Proof.highestFeed (Proof.feeds p))
            ]
-        <> [["axes, pulses a second", "", "", ""]]
-        <> [ frequencyRow "highest mean in a frame" (peaks total),
-             frequencyRow "largest jump between frames" (largestJumps total)
+        <> [["axes, pulses a second", "", if limits == noLimits then "" else "allowed", ""]]
+        <> [ frequencyRow "highest mean in a frame" (highestFrequency limits) (peaks total),
+             frequencyRow "largest jump between frames" (largestJump limits) (largestJumps total)
            ]
     )
     <> "\n"
@@ -54,6 +55,7 @@ pulseProof p =
       [["verdict on the pulses", if Proof.isSound p then "proven" else "WRONG"]]
   where
     total = Proof.total p
+    limits = Proof.limits p
     seconds (Seconds s) = Decimal.fixed 3 s
     ticks t = Decimal.fixed 3 (fromIntegral t / fromIntegral (Proof.clock p))
 
@@ -70,8 +72,10 @@ feedRow name found = case found of
   where
     feed (Feed v) = Decimal.fixed 2 v
 
--- | Row of the highest of the axes' frequencies.
-frequencyRow :: Text -> [FrequencyPeak] -> [Text]
-frequencyRow name found = case sortOn (Down . peakHz) (filter ((> 0) . peakFrame) found) of
-  [] -> [name, "", "", ""]
-  peak : _ -> [name, Decimal.fixed 1 (peakHz peak), "", Decimal.whole (peakFrame peak)]
+-- | Row of the highest of the axes' frequencies, with the limit that the description gives.
+frequencyRow :: Text -> Maybe Double -> [FrequencyPeak] -> [Text]
+frequencyRow name limit found = case sortOn (Down . peakHz) (filter ((> 0) . peakFrame) found) of
+  [] -> [name, "", allowed, ""]
+  peak : _ -> [name, Decimal.fixed 1 (peakHz peak), allowed, Decimal.whole (peakFrame peak)]
+  where
+    allowed = maybe "" (Decimal.fixed 1) limit

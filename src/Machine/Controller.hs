@@ -11,6 +11,9 @@ module Machine.Controller
     CornerPolicy (..),
     TapeReader (..),
     SpeedRamp (..),
+    FrequencyLimits (..),
+    frequencyLimits,
+    noLimits,
 
     -- * Jobs of the feed integrator
     ControlJob (..),
@@ -44,7 +47,8 @@ data StepControl = StepControl
     -- | ramp at a rising feed; 'Nothing' if the feed jumps
     ramp :: Maybe SpeedRamp,
     -- | 'Nothing' if the controller works away from the machine, so that no frame is waited for
-    stepReader :: Maybe TapeReader
+    stepReader :: Maybe TapeReader,
+    stepLimits :: FrequencyLimits
   }
   deriving stock (Eq, Show)
 
@@ -54,6 +58,15 @@ data InterpolationMethod
     DifferentialAnalyser
   | -- | One axis steps at a time. The sign of an evaluation function decides which one.
     EvaluationFunction
+  deriving stock (Eq, Show)
+
+-- | What the drives of the axes can follow, in pulses per second. 'Nothing' if it is not known.
+data FrequencyLimits = FrequencyLimits
+  { -- | highest mean frequency of an axis in a frame
+    highestFrequency :: Maybe Double,
+    -- | largest change of this frequency from one frame to the next
+    largestJump :: Maybe Double
+  }
   deriving stock (Eq, Show)
 
 -- | Acceleration in mm/s², and the time from one change of the feed to the next.
@@ -90,6 +103,7 @@ data IntegratorControl = IntegratorControl
     arcCycle :: Int,
     -- | count of switches that correct a dimension, such as the radius of a cutter
     switches :: Int,
+    driveLimits :: FrequencyLimits,
     -- | all other jobs, the most urgent first
     jobs :: [ControlJob]
   }
@@ -142,6 +156,17 @@ data CornerPolicy
   | -- | The next frame begins when the present one starts to decelerate.
     Blending
   deriving stock (Eq, Show)
+
+-- | Limits of the drives of a machine.
+frequencyLimits :: Controller -> FrequencyLimits
+frequencyLimits control = case control of
+  Stepping c -> stepLimits c
+  Integrating c -> driveLimits c
+  Planning _ -> noLimits
+
+-- | Limits that are not known.
+noLimits :: FrequencyLimits
+noLimits = FrequencyLimits {highestFrequency = Nothing, largestJump = Nothing}
 
 -- | First job with a request that satisfies the predicate.
 jobFor :: (JobRequest -> Bool) -> IntegratorControl -> Maybe ControlJob

@@ -62,8 +62,11 @@ stepControl method section =
     <$> required "clock" "clock 1000000 Hz" clockFrom section
     <*> optional "ramp" Nothing (fmap Just . rampFrom) section
     <*> required "reader" "reader 300 rows/s" (optionalReader section) section
+    <*> limitsFrom section
     <* allowKeys
-      ["interpolator", "clock", "ramp", "reader", "start-time", "frames-ahead", "fault-signal"]
+      ( ["interpolator", "clock", "ramp", "reader", "start-time", "frames-ahead", "fault-signal"]
+          <> limitKeys
+      )
       []
       section
   where
@@ -87,6 +90,7 @@ integratorControl section =
     <*> required "cycle-line" "cycle-line 4 ticks" (ticksFrom "cycle-line") section
     <*> required "cycle-arc" "cycle-arc 8 ticks" (ticksFrom "cycle-arc") section
     <*> optional "switches" 0 (countWith "switches" 0 99 "") section
+    <*> limitsFrom section
     <*> (sortOn priority <$> jobsFrom section)
     <* allowKeys keys ["job"] section
   where
@@ -103,6 +107,7 @@ integratorControl section =
         "cycle-arc",
         "switches"
       ]
+        <> limitKeys
     overrideFrom = withArguments ["override 0 50 100"] positions
     positions args
       | null args = Nothing
@@ -116,6 +121,21 @@ pathControl section =
     <* allowKeys ["interpolator", "acceleration", "corners"] [] section
   where
     cornersFrom = choice [("exact-stop", ExactStop), ("blended", Blending)]
+
+-- | Reads what the drives of the axes can follow.
+limitsFrom :: DescriptionSection -> Result w Error FrequencyLimits
+limitsFrom section =
+  FrequencyLimits
+    <$> optional "highest-frequency" Nothing (fmap Just . frequency "highest-frequency") section
+    <*> optional "largest-jump" Nothing (fmap Just . frequency "largest-jump") section
+  where
+    frequency word = withArguments [word <> " 900 Hz"] (one word)
+    one word args = case args of
+      [a, b] -> quantityIn ("‘" <> word <> "’") "Hz" 10000000 a b
+      _ -> Nothing
+
+limitKeys :: [Text]
+limitKeys = ["highest-frequency", "largest-jump"]
 
 -- | Reads the reader of the tape from the line @reader@ and from other lines of the section.
 readerFrom :: DescriptionSection -> Statement -> Result w Error TapeReader

@@ -18,8 +18,11 @@ import Data.Maybe (fromMaybe, isNothing)
 import Frame.Frame qualified as Frame
 import Machine.Controller
   ( Controller (..),
+    FrequencyLimits (..),
     InterpolationMethod (..),
     StepControl (interpolation),
+    frequencyLimits,
+    noLimits,
   )
 import Machine.Machine (Machine)
 import Machine.Machine qualified as Machine
@@ -36,7 +39,7 @@ import Pulse.FramePath (FramePath (Arc, Line, from, to))
 import Pulse.FramePath qualified as FramePath
 import Pulse.PathDeviation (PathTrace)
 import Pulse.PathDeviation qualified as PathDeviation
-import Pulse.RunMeasure (FrameMeasure, RunTotal (..))
+import Pulse.RunMeasure (FrameMeasure, FrequencyPeak (peakHz), RunTotal (..))
 import Pulse.RunMeasure qualified as Measure
 import Pulse.Steps (Pulses5 (..), Steps)
 import Pulse.Steps qualified as Steps
@@ -84,16 +87,37 @@ proveRun machine method ticks run measured' =
       feeds = extremes watch,
       total,
       clock = ticks,
+      limits,
       formulaTime = Seconds (byFormula watch),
       pulseFindings =
         [OffMotion first worst | Just first <- [firstOff motions], Just worst <- [worstOff motions]]
           <> [EndMissed n d | Just (Miss n d) <- [firstMiss motions]]
           <> [FeedTooHigh first worst | Just (TooHigh first worst) <- [tooHigh watch]]
+          <> driveFindings limits total
           <> stopFinding (stopReason total)
     }
   where
     motions = ControllerRun.fold (watched method) unmoved run
     (watch, total) = allFeeds machine method measured'
+    limits = maybe noLimits frequencyLimits (Machine.controller machine)
+
+-- | Axes that are faster, or that jump further, than the description of the machine allows.
+driveFindings :: FrequencyLimits -> RunTotal -> [PulseFinding]
+driveFindings limits total =
+  above AxisTooFast highestFrequency (peaks total)
+    <> above JumpTooLarge largestJump (largestJumps total)
+  where
+    above finding limitOf found =
+      [ finding k peak limit
+        | Just limit <- [limitOf limits],
+          (k, peak) <- zip [0 ..] found,
+          peakHz peak > limit * (1 + frequencyAllowance)
+      ]
+
+-- | Part by which the frequency of an axis may be above its limit: the last pulse of a frame comes
+-- at a whole tick.
+frequencyAllowance :: Double
+frequencyAllowance = 0.01
 
 stopFinding :: StopReason -> [PulseFinding]
 stopFinding why = case why of

@@ -15,14 +15,15 @@ import Base.Decimal qualified as Decimal
 import Base.Quantity (Feed (..), Seconds (..))
 import Data.Text (Text)
 import Data.Text qualified as Text
+import Machine.Controller (FrequencyLimits)
 import Machine.Machine (Machine, MachineName (..))
 import Machine.Machine qualified as Machine
 import Pulse.ControllerRun (StopReason (..))
 import Pulse.FramePath (feedText)
-import Pulse.RunMeasure (RunTotal)
+import Pulse.RunMeasure (FrequencyPeak (..), RunTotal)
 import Pulse.Steps (Pulses5)
 import Pulse.Steps qualified as Steps
-import Report.Report (Report (message), ReportCode, ReportPlace (..), report)
+import Report.Report (Report (hints, message), ReportCode, ReportPlace (..), report)
 import Report.Report qualified as Report
 import Tape.Damage qualified as Damage
 
@@ -56,6 +57,8 @@ data PulseProof = PulseProof
     -- | measures of the whole run, and the frequency of its clock
     total :: RunTotal,
     clock :: Int,
+    -- | what the drives of the axes can follow
+    limits :: FrequencyLimits,
     -- | sum of length by feed over all frames
     formulaTime :: Seconds,
     pulseFindings :: [PulseFinding]
@@ -72,6 +75,12 @@ data PulseFinding
   | -- | The feed is higher than asked, by more than the controller's swing: the first frame, and
     -- the frame in which it is highest in proportion.
     FeedTooHigh FeedWitness FeedWitness
+  | -- | An axis is faster than its drive can follow: the index of the axis, its highest
+    -- frequency, and the limit in pulses per second.
+    AxisTooFast Int FrequencyPeak Double
+  | -- | The frequency of an axis jumps further than its drive can follow: the index of the axis,
+    -- its largest jump, and the limit in pulses per second.
+    JumpTooLarge Int FrequencyPeak Double
   | -- | The controller stops before the end of the tape.
     StopsEarly StopReason
   deriving stock (Eq, Show)
@@ -90,15 +99,33 @@ toReport machine finding = case finding of
   EndMissed n missed ->
     wrong "E0719" ("the pulses of " <> frameWord n <> " miss its end by " <> vector missed)
   FeedTooHigh first worst -> feedReport first worst
+  AxisTooFast k peak limit ->
+    driveReport
+      ("axis " <> axis k <> " makes " <> hz (peakHz peak) <> " in " <> frameWord (peakFrame peak))
+      limit
+  JumpTooLarge k peak limit ->
+    driveReport
+      ( "the frequency of axis "
+          <> axis k
+          <> " jumps by "
+          <> hz (peakHz peak)
+          <> " at the start of "
+          <> frameWord (peakFrame peak)
+      )
+      limit
   StopsEarly why -> stopReport why
   where
     vector v =
       Text.intercalate
         ", "
-        [ Decimal.whole d <> " in " <> axis
-          | (axis, d) <- zip ["x", "y", "z", "a", "b"] (Steps.toList v),
-            d /= 0
-        ]
+        [Decimal.whole d <> " in " <> axis k | (k, d) <- zip [0 ..] (Steps.toList v), d /= 0]
+    axis k = Text.take 1 (Text.drop k "xyzab")
+    hz v = Decimal.fixed 1 v <> " Hz"
+    driveReport fault limit =
+      (wrong "E0722" (fault <> ", too much for its drive"))
+        { message = ["The description of the machine allows " <> hz limit <> "."],
+          hints = ["Ask a lower feed there, or turn the corner by an arc."]
+        }
 
 offReport :: Machine -> PulseWitness -> PulseWitness -> Report
 offReport machine first worst =

@@ -34,6 +34,12 @@ stepping method =
     <$> choose (1000, 2000000)
     <*> oneof [pure Nothing, Just <$> (SpeedRamp <$> tenths <*> milliseconds)]
     <*> oneof [pure Nothing, Just <$> tapeReader]
+    <*> driveLimit
+
+driveLimit :: Gen FrequencyLimits
+driveLimit = FrequencyLimits <$> limit <*> limit
+  where
+    limit = oneof [pure Nothing, Just <$> tenths]
 
 planning :: Gen PathControl
 planning = PathControl <$> tenths <*> elements [ExactStop, Blending]
@@ -49,6 +55,7 @@ integrating m =
     <*> choose (1, 20)
     <*> choose (1, 20)
     <*> choose (0, 99)
+    <*> driveLimit
     <*> (zipWith ($) <$> traverse job requests <*> pure [1 ..])
   where
     job (n, r) = (\k t p -> ControlJob n k p t) <$> choose (1, 50) <*> r

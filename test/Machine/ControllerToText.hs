@@ -24,6 +24,7 @@ controllerLines control = case control of
            | Just r <- [ramp c]
          ]
       <> maybe ["reader none"] readerLines (stepReader c)
+      <> limitLines (stepLimits c)
   Planning c ->
     [ "interpolator path-planner",
       "acceleration " <> Decimal.exact (plannedAcceleration c) <> " mm/s2",
@@ -42,7 +43,13 @@ controllerLines control = case control of
       "switches " <> Decimal.whole (switches c)
     ]
       <> readerLines (reader c)
+      <> limitLines (driveLimits c)
       <> concatMap jobLines (jobs c)
+
+limitLines :: FrequencyLimits -> [Text]
+limitLines l =
+  ["highest-frequency " <> Decimal.exact hz <> " Hz" | Just hz <- [highestFrequency l]]
+    <> ["largest-jump " <> Decimal.exact hz <> " Hz" | Just hz <- [largestJump l]]
 
 readerLines :: TapeReader -> [Text]
 readerLines r =

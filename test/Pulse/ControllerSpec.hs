@@ -5,9 +5,10 @@ module Pulse.ControllerSpec
   )
 where
 
+import Base.Decimal qualified as Decimal
 import Base.LazyList qualified as LazyList
 import Base.PulseVector (Pulses2 (..), Pulses3 (..))
-import Base.Quantity (Mm (..), Pulses (..), Rad (..))
+import Base.Quantity (Mm (..), Pulses (..), Rad (..), Seconds (..))
 import Base.Region (Located (..))
 import Base.Result qualified as Result
 import CaseCount (askedCount)
@@ -237,16 +238,28 @@ feedsBetween machine (low, high) code f =
 jobWaits :: Spec
 jobWaits =
   it "wait no longer than their bounds (catches a job that is left out of a bound)" $
-    forAll (listOf1 (oneof [shortLine, roundFrame])) $ \fs ->
-      let found = loads (snd (measured n55 fs))
-       in conjoin
-            [ counterexample (show (jobName j, load, bound)) (longestWait load <= bound)
-              | Just (Integrating c) <- [Machine.controller n55],
-                -- 600 mm/min along one axis are 1000 pulses a second.
-                (j, Just bound) <- IntegratorFeed.waitBounds c 1000,
-                Just load <- [Map.lookup (jobName j) found]
-            ]
+    forAll ((,) <$> elements [n55, crowded] <*> listOf1 (oneof [shortLine, roundFrame])) $
+      \(machine, fs) ->
+        let found = loads (snd (measured machine fs))
+         in conjoin
+              [ counterexample (show (jobName j, load, bound)) (longestWait load <= bound)
+                | Just (Integrating c) <- [Machine.controller machine],
+                  -- 600 mm/min along one axis are 1000 pulses a second.
+                  (j, Just bound) <- IntegratorFeed.waitBounds c 1000,
+                  Just load <- [Map.lookup (jobName j) found]
+              ]
   where
+    -- Six more jobs, which are all requested at the same ticks.
+    crowded = flip with n55 $ \case
+      Integrating c -> Integrating c {jobs = jobs c <> map periodic [1 .. 6]}
+      other -> other
+    periodic n =
+      ControlJob
+        { jobName = "periodic " <> Decimal.whole n,
+          duration = 20,
+          priority = 50 + n,
+          request = Periodic (Seconds 0.05)
+        }
     shortLine = do
       code <- choose (30, 600)
       x <- choose (-400, 400)

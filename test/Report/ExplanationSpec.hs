@@ -88,7 +88,8 @@ raisedElsewhere =
         "E0718",
         "E0719",
         "E0720",
-        "E0721"
+        "E0721",
+        "E0722"
       ]
     ),
     ( "files and the command line",

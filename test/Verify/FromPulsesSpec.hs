@@ -14,7 +14,13 @@ import Frame.Frame (Frame (..), FrameMotion (..))
 import Frame.Frame qualified as Frame
 import Generate.Machine qualified as Generate
 import Geometry.Carrier (Sense (..))
-import Machine.Controller (Controller (..), InterpolationMethod (..))
+import Machine.Controller
+  ( Controller (..),
+    FrequencyLimits (..),
+    IntegratorControl (driveLimits),
+    InterpolationMethod (..),
+    StepControl (stepLimits),
+  )
 import Machine.Machine (FeedCode (..), Machine, MachineName (..))
 import Machine.Machine qualified as Machine
 import Machines (lkiUn, lkp01f, n55)
@@ -23,6 +29,7 @@ import Project.Job (Job (verification), Verification (..))
 import Project.LoadedProgram qualified as LoadedProgram
 import Pulse.Controller qualified as Controller
 import Pulse.ControllerRun (ControllerRun (..), StopReason (..))
+import Pulse.RunMeasure (FrequencyPeak (peakHz))
 import Pulse.RunMeasure qualified as RunMeasure
 import Pulse.Steps qualified as Steps
 import Surface.Import qualified as Import
@@ -32,7 +39,8 @@ import Tape.Punch qualified as Punch
 import Test.Hspec
 import Test.QuickCheck
 import Verify.FromPulses qualified as FromPulses
-import Verify.PulseProof (PulseFinding (..), PulseProof (..))
+import Verify.PulseProof (PulseFinding (..), PulseProof (pulseFindings))
+import Verify.PulseProof qualified as PulseProof
 
 spec :: Spec
 spec = do
@@ -72,6 +80,23 @@ spec = do
       let run = runOf machine [circle machine]
       pulseFindings (proofOf machine run) `shouldBe` []
       pulseFindings (proofOf machine (stepless run)) `shouldSatisfy` any isOff
+  it "an axis above its limit is found, and no other (catches limits that are not compared)" $
+    forM_ [lkp01f, lkiUn, n55] $ \machine -> do
+      let run = runOf machine (zigzag machine)
+          findings limits =
+            [ (k, peak)
+              | finding <- pulseFindings (proofOf (limited limits machine) run),
+                Just (k, peak) <- [aboveLimit finding]
+            ]
+          whole = PulseProof.total (proofOf machine run)
+          check limit found =
+            forM_ [0.5, 0.8, 0.98, 1.02] $ \share -> do
+              let most = share * maximum (map peakHz found)
+                  expected = [(k, p) | (k, p) <- zip [0 ..] found, peakHz p > 1.01 * most]
+              findings (limit most) `shouldBe` expected
+              null expected `shouldBe` share > 1
+      check (\hz -> FrequencyLimits (Just hz) Nothing) (RunMeasure.peaks whole)
+      check (FrequencyLimits Nothing . Just) (RunMeasure.largestJumps whole)
   it "an unreadable frame is a stop" $ do
     let tape = Punch.write n55 0 (zigzag n55)
     fmap pulseFindings (FromPulses.prove lkp01f Controller.neutral 0 tape)
@@ -214,6 +239,21 @@ rewritten n change run = case run of
   Commanded t c k more -> Commanded t c k (rewritten n change more)
   JobDone j more -> JobDone j (rewritten n change more)
   Stopped _ _ -> run
+
+-- | Machine with limits for its drives.
+limited :: FrequencyLimits -> Machine -> Machine
+limited limits machine = machine {Machine.controller = withLimits <$> Machine.controller machine}
+  where
+    withLimits control = case control of
+      Stepping c -> Stepping c {stepLimits = limits}
+      Integrating c -> Integrating c {driveLimits = limits}
+      Planning c -> Planning c
+
+aboveLimit :: PulseFinding -> Maybe (Int, FrequencyPeak)
+aboveLimit finding = case finding of
+  AxisTooFast k peak _ -> Just (k, peak)
+  JumpTooLarge k peak _ -> Just (k, peak)
+  _ -> Nothing
 
 -- | Run without pulses.
 stepless :: ControllerRun -> ControllerRun
