@@ -14,7 +14,7 @@ where
 import Base.Decimal qualified as Decimal
 import Data.Text (Text)
 import Data.Text qualified as Text
-import Pulse.FramePath (AskedFeed, feedText)
+import Pulse.FramePath (AskedFeed, feedText, roundedDown)
 import Report.Report (Report (..), ReportPlace (..), report)
 import Report.Report qualified as Report
 
@@ -51,6 +51,10 @@ data Error
   | -- | The switch that corrects the feed has no such position: the position, and those that it
     -- has.
     NoSuchOverride Int [Int]
+  | -- | The control has no switch with this number: the number, and the count of its switches.
+    NoSuchSwitch Int Int
+  | -- | The command line sets the switch with this number twice.
+    SwitchSetTwice Int
   | -- | The controller stops before a frame that it cannot run: the number of the frame, its feed,
     -- and the largest feed that it can run there.
     FeedTooHigh Int AskedFeed AskedFeed
@@ -149,18 +153,31 @@ toReport err = case err of
                   <> "."
           ]
       }
+  NoSuchSwitch n count ->
+    (wrong "E0816" InFile ("the control has no switch " <> Decimal.whole n <> " for a radius"))
+      { hints =
+          [ if count == 0
+              then "The machine's control has no such switches; leave --switch out."
+              else "Its switches have the numbers 1 to " <> Decimal.whole count <> "."
+          ]
+      }
+  SwitchSetTwice n ->
+    (wrong "E0816" InFile ("switch " <> Decimal.whole n <> " is set twice"))
+      { hints = ["Leave one of the two --switch options out."]
+      }
   FeedTooHigh n asked most ->
     ( wrong
         "E0602"
         InFile
-        ( "the controller cannot run frame "
+        ( "frame "
             <> Decimal.whole n
-            <> ": its feed of "
+            <> " asks "
             <> feedText asked
-            <> " is too high"
+            <> ", too fast for the controller"
         )
     )
-      { hints = ["The largest feed that it can run there is " <> feedText most <> "."]
+      { hints =
+          ["The largest feed that it can run there is " <> feedText (roundedDown most) <> "."]
       }
   SwitchMissing n k ->
     ( wrong

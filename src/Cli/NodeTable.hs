@@ -13,10 +13,11 @@ where
 import Base.Decimal qualified as Decimal
 import Base.LazyList qualified as LazyList
 import Base.Name (Name (..))
-import Base.Quantity (Mm (..), Rad (..), Seconds (..), minus, times, total, travelTime)
+import Base.Quantity (Feed (..), Mm (..), Rad (..), Seconds (..), minus, times, total, travelTime)
 import Base.Region (Located (..))
 import Cli.CurveTable qualified as CurveTable
 import Cli.RestMaterialTable qualified as RestMaterialTable
+import Cli.RunTable qualified as RunTable
 import Cli.Table (Align (..))
 import Cli.Table qualified as Table
 import Compile (Analysis (..), Punched (..))
@@ -30,7 +31,6 @@ import Geometry.Segment (Segment (..))
 import Geometry.Segment qualified as Segment
 import Geometry.Vec qualified as Vec
 import Machine.Machine (Machine)
-import Machine.Machine qualified as Machine
 import Part.Part (Drilling, Milling, Pace (..), Part)
 import Part.Part qualified as Part
 import Pulse.Controller qualified as Controller
@@ -240,12 +240,13 @@ controllerRow machine Punched {program, tape} =
   ]
   where
     console = Controller.consoleFor machine (Frame.plannedFrames program)
+    stopped whole = ["", "stops " <> RunTable.stopText machine (stopReason whole)]
     timeOrStop whole clock = case stopReason whole of
-      TooFast n _ _ -> ["", "stops before frame " <> Decimal.whole n]
-      FeedHeld n -> ["", "stops before frame " <> Decimal.whole n]
-      SwitchNotSet n _ -> ["", "stops before frame " <> Decimal.whole n]
-      NotCompensated n _ -> ["", "stops before frame " <> Decimal.whole n]
-      Unreadable _ -> ["", "stops before a frame that cannot be read"]
+      TooFast {} -> stopped whole
+      FeedHeld _ -> stopped whole
+      SwitchNotSet _ _ -> stopped whole
+      NotCompensated _ _ -> stopped whole
+      Unreadable _ -> stopped whole
       TapeEnds -> [Decimal.fixed 1 (fromIntegral (totalTicks whole) / fromIntegral clock), "s"]
       ProgramEnds -> [Decimal.fixed 1 (fromIntegral (totalTicks whole) / fromIntegral clock), "s"]
 
@@ -263,13 +264,15 @@ tapeRows machine Punched {program, tape} =
 
 -- | The time of a move at the feed of the machine; without a machine, at the feed of the program.
 -- A rapid move counts as 0 s if its speed is unknown. That is the case without a machine, and if
--- the control of the machine chooses the speed itself.
+-- the description of the machine gives none.
 moveTime :: Maybe Machine -> Move -> Seconds
 moveTime machine move = maybe (Seconds 0) (travelTime (moveLength move)) (feedOf (pace move))
   where
     feedOf p = case (p, machine) of
       (Rapid, Nothing) -> Nothing
-      (Rapid, Just m) -> if Machine.hasRapidMotion m then Nothing else Just (FeedCode.rapidFeed m)
+      (Rapid, Just m) -> case FeedCode.rapidFeed m of
+        Feed 0 -> Nothing
+        feed -> Just feed
       (At (Located _ feed), Nothing) -> Just feed
       (At (Located _ feed), Just m) -> Just (FeedCode.expectedFeed m feed)
 

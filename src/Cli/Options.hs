@@ -301,7 +301,9 @@ tickRange = do
   (a, b) <- rangeFrom 0
   if a < b && b - a <= most
     then pure (a, b)
-    else Opt.readerError ("a timeline shows 1 to " <> show most <> " ticks")
+    else
+      Opt.readerError
+        ("a timeline ends after its first tick, and at most " <> show most <> " ticks later")
   where
     most = 5000 :: Int
 

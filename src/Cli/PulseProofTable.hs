@@ -29,8 +29,8 @@ pulseProof p =
       ]
         <> [["feed mm/min", "", "asked", ""]]
         <> [ feedRow "mean of a frame, furthest off" (Proof.meanFeed (Proof.feeds p)),
-             feedRow "least over a millimetre" (Proof.leastFeed (Proof.feeds p)),
-             feedRow "highest over a millimetre" (Proof.highestFeed (Proof.feeds p))
+             feedRow "furthest below, over 1 mm" (Proof.leastFeed (Proof.feeds p)),
+             feedRow "furthest above, over 1 mm" (Proof.highestFeed (Proof.feeds p))
            ]
         <> [["axes, pulses a second", "", if limits == noLimits then "" else "allowed", ""]]
         <> [ frequencyRow "highest mean in a frame" (highestFrequency limits) (peaks total),

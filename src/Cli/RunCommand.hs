@@ -7,6 +7,8 @@ where
 
 import Base.LazyList (LazyList)
 import Base.LazyList qualified as LazyList
+import Base.PulseVector (Pulses3)
+import Base.Quantity (Mm)
 import Base.Region (Source)
 import Base.Region qualified as Region
 import Cli.Error (Error (..))
@@ -36,8 +38,9 @@ import Draw.SpeedPlot qualified as SpeedPlot
 import Draw.TimeColumn (TimeColumns)
 import Draw.TimeColumn qualified as TimeColumn
 import Draw.Timeline qualified as Timeline
-import Frame.Frame (FrameProgram (plannedFrames))
-import Machine.Controller (Controller (..), IntegratorControl (override))
+import Frame.Frame (Frame, FrameProgram (plannedFrames))
+import Frame.Frame qualified as Frame
+import Machine.Controller (Controller (..), IntegratorControl (override, switches))
 import Machine.Machine (Machine, MachineName (..))
 import Machine.Machine qualified as Machine
 import Project.LoadedProgram qualified as LoadedProgram
@@ -67,6 +70,7 @@ run reporter options
                 text = source given,
                 machine = Compile.machine made,
                 console = Controller.consoleFor (Compile.machine made) (plannedFrames program),
+                start = Frame.start program,
                 rows = tape,
                 sources = ownFiles file given
               }
@@ -79,6 +83,7 @@ run reporter options
           text = Region.fromText (displayName file) "",
           machine,
           console = Controller.neutral,
+          start = 0,
           rows,
           sources = file : map Text.unpack (maybeToList target)
         }
@@ -95,18 +100,24 @@ data RunSubject = RunSubject
     machine :: Machine,
     -- | switches that the program sets
     console :: Console,
+    -- | position of the cutter before the tape; 0 for a tape without its program
+    start :: Pulses3,
     rows :: Tape,
     -- | files that no output may replace
     sources :: [FilePath]
   }
 
--- | Runs a tape and writes the chosen form. The cutter starts at 0.
+-- | Runs a tape and writes the chosen form.
 runTape :: Reporter -> RunOptions -> RunSubject -> IO Exit
-runTape reporter options given = case correctionFor options (machine given) of
+runTape reporter options given = case corrected of
   Left e -> failWith reporter (tapeName given) e
-  Right correction ->
-    let console' = (console given) {correction, radii = switchesAt options <> radii (console given)}
-     in Output.collectingOften (runSubject reporter options given {console = console'})
+  Right console' -> Output.collectingOften (runSubject reporter options given {console = console'})
+  where
+    corrected = do
+      correction <- correctionFor options (machine given)
+      checkSwitches (switchesAt options) (machine given)
+      checkRange options given
+      pure (console given) {correction, radii = switchesAt options <> radii (console given)}
 
 -- | Writes a run in the chosen form.
 runSubject :: Reporter -> RunOptions -> RunSubject -> IO Exit
@@ -144,7 +155,8 @@ runSubject reporter options subject = case runForm options of
 
 -- | Measures of the frames that run; 'Nothing' without a controller.
 measuresOf :: RunSubject -> Maybe (LazyList RunTotal FrameMeasure)
-measuresOf subject = Controller.measured (machine subject) (console subject) 0 (rows subject)
+measuresOf subject =
+  Controller.measured (machine subject) (console subject) (start subject) (rows subject)
 
 -- | Frequency of the clock of a controller.
 clockOf :: RunSubject -> Int
@@ -157,7 +169,7 @@ machineName subject = let MachineName name' = Machine.name (machine subject) in 
 -- none.
 withPulses :: Reporter -> RunSubject -> (ControllerRun -> IO Exit) -> IO Exit
 withPulses reporter subject continue =
-  case Controller.run (machine subject) (console subject) 0 (rows subject) of
+  case Controller.run (machine subject) (console subject) (start subject) (rows subject) of
     Nothing -> failWith reporter (tapeName subject) (NoPulses (machineName subject))
     Just pulses -> continue pulses
 
@@ -166,9 +178,14 @@ speedPicture :: Reporter -> RunSubject -> Maybe FilePath -> (TimeColumns, StopRe
 speedPicture reporter subject output (columns, why)
   | null (TimeColumn.frameStarts columns) =
     failWith reporter (tapeName subject) (NothingInRange "frame" (frameCount subject))
+  | not (SpeedPlot.hasMotion columns) =
+    failWith reporter (tapeName subject) (NothingInRange "motion" (motionCount subject))
   | otherwise = do
-    exit <- writeText reporter (tapeName subject) (sources subject) output picture
-    if exit == Done then afterStop reporter subject why else pure exit
+    -- A run that stops at a fault gives no picture.
+    exit <- afterStop reporter subject why
+    if exit == Done
+      then writeText reporter (tapeName subject) (sources subject) output picture
+      else pure exit
   where
     picture = SpeedPlot.plot (machine subject) axes (clockOf subject) (shortName subject) columns
     axes = RunTable.axisNames (machine subject)
@@ -204,10 +221,9 @@ timelinePicture reporter subject output range control pulses =
         (Timeline.plot (machine subject) control (shortName subject) timeline)
     Nothing -> failWith reporter (tapeName subject) $ case range of
       Ticks _ _ -> NothingInRange "tick" (maybe 0 (totalTicks . LazyList.end) (measuresOf subject))
-      AtFeedMove _ -> NothingInRange "feed move" (length (filter isFeedMove frames))
+      AtFeedMove _ -> NothingInRange "feed move" (length (filter isFeedMove (framesOf subject)))
   where
-    frames = LazyList.toList (Tape.readInTurn (machine subject) 0 (rows subject))
-    isFeedMove = RunMeasure.isAtFeed (machine subject) . frameRead
+    isFeedMove = RunMeasure.isAtFeed (machine subject)
 
 -- | Name of the tape or program without its folder.
 shortName :: RunSubject -> Text
@@ -215,7 +231,18 @@ shortName = Text.pack . takeFileName . Text.unpack . tapeName
 
 -- | Count of the frames on the tape that can be read.
 frameCount :: RunSubject -> Int
-frameCount subject = length (LazyList.toList (Tape.readInTurn (machine subject) 0 (rows subject)))
+frameCount = length . framesOf
+
+-- | Count of these frames that move.
+motionCount :: RunSubject -> Int
+motionCount = length . filter Frame.isMoving . framesOf
+
+-- | Frames on the tape that can be read.
+framesOf :: RunSubject -> [Frame]
+framesOf subject =
+  map
+    frameRead
+    (LazyList.toList (Tape.readInTurn (machine subject) (start subject) (rows subject)))
 
 -- | Exit status after a run that stops for a reason, which is reported if it is a fault.
 afterStop :: Reporter -> RunSubject -> StopReason -> IO Exit
@@ -230,6 +257,30 @@ afterStop reporter subject why = case why of
   where
     stoppedWith report =
       Failed <$ Output.showReports reporter (tapeName subject) (text subject) [report]
+
+-- | Fails if the command line sets a switch twice, or one that the control does not have.
+checkSwitches :: [(Int, Mm)] -> Machine -> Either Error ()
+checkSwitches set machine = case [n | (n, _) <- set, n < 1 || n > count] of
+  n : _ -> Left (NoSuchSwitch n count)
+  [] -> case [n | (k, (n, _)) <- zip [0 ..] set, n `elem` map fst (take k set)] of
+    n : _ -> Left (SwitchSetTwice n)
+    [] -> Right ()
+  where
+    count = case Machine.controller machine of
+      Just (Integrating c) -> switches c
+      _ -> 0
+
+-- | Fails if the tape has none of the frames that the command line selects.
+checkRange :: RunOptions -> RunSubject -> Either Error ()
+checkRange options subject = case (fromFrame options, toFrame options) of
+  (Nothing, Nothing) -> Right ()
+  (from, to)
+    | first > min count (fromMaybe count to) ->
+      Left (NothingInRange "frame" count)
+    | otherwise -> Right ()
+    where
+      first = maybe 1 (max 1) from
+      count = frameCount subject
 
 -- | Correction of the feed as a factor, from the position of the switch that the command line
 -- names.

@@ -9,6 +9,7 @@ module Cli.RunTable
     totalJson,
     pulseLines,
     axisNames,
+    stopText,
   )
 where
 
@@ -259,6 +260,7 @@ totalJson machine clock total =
             peak <- take 1 (drop k found)
         ]
 
+-- | Place and reason of a stop, after the word *stops*.
 stopText :: Machine -> StopReason -> Text
 stopText machine why = case why of
   TapeEnds

@@ -4,6 +4,7 @@ module Draw.SpeedPlot
   ( columns,
     plot,
     feedRange,
+    hasMotion,
   )
 where
 
@@ -125,6 +126,11 @@ feedRange :: TimeColumns -> Maybe (Double, Double)
 feedRange c = case map snd (TimeColumn.bands FeedMeasured c) of
   [] -> Nothing
   bs -> Just (minimum (map least bs), maximum (map highest bs))
+
+-- | True if anything moves.
+hasMotion :: TimeColumns -> Bool
+hasMotion c =
+  or [highest band > 0 | k <- [FeedMeasured, TurningMeasured], (_, band) <- TimeColumn.bands k c]
 
 -- | Feed at the upper edge of the chart. A feed that is asked counts only up to three times the
 -- highest feed that is measured: rapid moves may ask a feed that no controller reaches.

@@ -27,6 +27,10 @@ data ControllerFault
     NoDirectionJob
   | -- | job after a command for which frames have neither a word nor bits: the name of the command
     NoSuchCommand Text
+  | -- | jobs that come by the clock and need this part of the time, 1 or more
+    Overloaded Double
+  | -- | commands for cutter compensation with a switch, but no switch for a radius
+    NoSwitches
   deriving stock (Eq, Ord, Show)
 
 -- | Report of a conflict; the region is that of the section @controller@.
@@ -55,6 +59,19 @@ toReport region fault = case fault of
   NoSuchCommand name ->
     (wrong ("no frame can give the command " <> quote name <> ", after which a job is requested"))
       { hints = ["Take the name of a word or of bits of the frame."]
+      }
+  Overloaded load ->
+    ( wrong
+        ( "the jobs that come by the clock need "
+            <> Decimal.short 0 (100 * load)
+            <> " % of the time, so nothing else is ever done"
+        )
+    )
+      { hints = ["Request them less often, or make them shorter."]
+      }
+  NoSwitches ->
+    (wrong "the commands for cutter compensation name a switch, but the control has none")
+      { hints = ["Write how many there are, for example: switches 35"]
       }
   where
     wrong = report Error "E1015" (InSource region)

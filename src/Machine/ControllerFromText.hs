@@ -12,6 +12,7 @@ import Base.Region (Located (..), Region)
 import Base.Result (Result)
 import Base.Result qualified as Result
 import Data.List (sortOn)
+import Data.Maybe (fromMaybe, isJust)
 import Data.Text (Text)
 import Machine.Controller
 import Machine.ControllerError (ControllerFault (..))
@@ -277,6 +278,8 @@ liftedPair make a b = case (a, b) of
 -- * Words of axes and of centres have at most 'mostDigits' digits.
 -- * A job that follows a command names a command that frames can give.
 -- * A control with a feed integrator that makes arcs has a job for their direction.
+-- * The jobs that come by the clock leave time for the others.
+-- * Commands for cutter compensation with a switch need a switch.
 check :: Machine -> Region -> Controller -> [Error]
 check machine region control = map (BadController region) (common <> special)
   where
@@ -309,9 +312,27 @@ check machine region control = map (BadController region) (common <> special)
                | ControlJob {request = AfterCommand name@(CommandName c) _ _} <- jobs i,
                  Nothing <- [Machine.commandCapacity machine name]
              ]
+          <> [Overloaded load | let load = timedLoad i, load >= 1]
+          <> [NoSwitches | switches i == 0, isJust (compensated >>= Machine.radiusSwitch)]
+    compensated = Machine.compensation (Machine.commandWords machine)
     isDirection r = case r of
       AtDirection _ _ -> True
       _ -> False
+
+-- | Part of the time that the jobs need that come by the clock or with each row of the tape.
+timedLoad :: IntegratorControl -> Double
+timedLoad control = sum (map load (jobs control))
+  where
+    load j = fromIntegral (duration j) / fromMaybe (1 / 0) (ticksBetween (request j))
+    ticksBetween r = case r of
+      AtCharacter -> Just (fromIntegral (clock control) / rowsPerSecond (reader control))
+      AtAcceleration t -> Just (fromIntegral (ticksIn (clock control) t))
+      Periodic t -> Just (fromIntegral (ticksIn (clock control) t))
+      AtNumber -> Nothing
+      AtTransfer -> Nothing
+      AtCompensation -> Nothing
+      AtDirection _ _ -> Nothing
+      AfterCommand {} -> Nothing
 
 -- | Largest count of digits in the word of an axis for which the model of a controller computes
 -- with 64 bits.

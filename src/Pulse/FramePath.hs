@@ -12,12 +12,14 @@ module Pulse.FramePath
     leadingAxis,
     allPulses,
     endOf,
+    directions,
     AskedFeed (..),
     askedFeed,
     feedOn,
     feedValue,
     feedAlong,
     feedText,
+    roundedDown,
   )
 where
 
@@ -110,6 +112,22 @@ endOf path = case path of
   Line d -> d
   Arc {from = (a, b), to = (c, d)} -> Pulses5 (c - a) (d - b) 0 0 0
 
+-- | Directions in which each axis moves at the start and at the end of a path: 1, −1, or 0 for an
+-- axis that rests.
+directions :: FramePath -> (Pulses5, Pulses5)
+directions path = case path of
+  Line (Pulses5 x y z a b) ->
+    let d = Pulses5 (signum x) (signum y) (signum z) (signum a) (signum b) in (d, d)
+  Arc {clockwise, from = (a, b), to = (c, d)} ->
+    let s = if clockwise then -1 else 1
+        -- Where the tangent is parallel to one axis, the other one is about to move, or has just
+        -- moved, along the radius.
+        first along radius = if along /= 0 then signum along else negate (signum radius)
+        final along radius = if along /= 0 then signum along else signum radius
+     in ( Pulses5 (first (-s * b) a) (first (s * a) b) 0 0 0,
+          Pulses5 (final (-s * d) c) (final (s * c) d) 0 0 0
+        )
+
 -- | Feed that a frame asks.
 data AskedFeed
   = -- | in mm\/min along the path
@@ -160,6 +178,15 @@ feedAlong machine path asked = case asked of
         n = leadingPulses d
     Line _ -> Nothing
     Arc {} -> Nothing
+
+-- | Feed rounded down to a hundredth of its unit, so that it is not above a limit.
+roundedDown :: AskedFeed -> AskedFeed
+roundedDown asked = case asked of
+  Along v -> Along (down v)
+  Turning v -> Turning (down v)
+  OfLeadingAxis v -> OfLeadingAxis (down v)
+  where
+    down v = fromIntegral (floor (100 * v) :: Int) / 100
 
 -- | Feed with its unit, as reports show it.
 feedText :: AskedFeed -> Text

@@ -59,7 +59,8 @@ data FrameMeasure = FrameMeasure
     feeds :: Maybe (Double, Double, Double),
     -- | mean frequencies of the five axes, in pulses per second; empty if the frame takes no time
     frequencies :: [Double],
-    -- | changes of these frequencies from the frame before; empty without such a frame
+    -- | Changes of these frequencies from the end of the frame before, with the directions in which
+    -- the axes move there; empty without such a frame. An axis that turns back jumps by the sum.
     jumps :: [Double],
     -- | commands with the ticks at which they go out
     commands :: [(Tick, CommandName, Int)]
@@ -96,7 +97,8 @@ data JobLoad = JobLoad {runCount :: Int, runTicks :: Tick, longestWait :: Tick}
 data Progress = Progress
   { position :: Pulses5,
     total :: RunTotal,
-    -- | mean frequencies of the axes in the last frame that moved
+    -- | mean frequencies of the axes in the last frame that moved, with the signs of the directions
+    -- at its end
     lastFrequencies :: [Double],
     -- | true if the last frame moved at a feed
     wasFeedMove :: Bool
@@ -200,6 +202,9 @@ ended machine clock t m = (f, p')
     mean = FeedWindow.speed clock long ticks
     hasTime = ticks > 0 && long > 0
     hz = map perSecond (Steps.toList (FeedWindow.made w))
+    (atStart, atEnd) = maybe (zero, zero) FramePath.directions (path s)
+    signed directions = zipWith (*) (map fromIntegral (Steps.toList directions)) hz
+    jump a b = abs (a - b)
     perSecond n = fromIntegral n * fromIntegral clock / fromIntegral ticks
     isFeedMove = isAtFeed machine (frameStarted s)
     inCut = wasFeedMove p && isFeedMove
@@ -216,14 +221,14 @@ ended machine clock t m = (f, p')
           asked = FramePath.askedFeed machine (frameStarted s) <$ path s,
           feeds = if hasTime then Just (feedsOf mean w) else Nothing,
           frequencies = if hasTime then hz else [],
-          jumps = if hasTime then zipWith (\a b -> abs (a - b)) hz (lastFrequencies p) else [],
+          jumps = if hasTime then zipWith jump (signed atStart) (lastFrequencies p) else [],
           commands = reverse (given m)
         }
     p' =
       Progress
         { position = positionAfter f,
           total = withFrame f (total p),
-          lastFrequencies = if hasTime then hz else lastFrequencies p,
+          lastFrequencies = if hasTime then signed atEnd else lastFrequencies p,
           wasFeedMove = isFeedMove
         }
 

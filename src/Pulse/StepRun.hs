@@ -121,7 +121,9 @@ between setup rest frames = case frames of
         readAt' = case more of
           LazyList.Next next _ | stored' <= 0 -> begin + readingTime (control setup) (rowsRead next)
           _ -> begin
-        rest' = rest {now = begin, readAt = readAt', stored = stored'}
+        -- While the controller waits for the reader, the axes stand.
+        feed' = if begin > now rest then 0 else feed rest
+        rest' = rest {now = begin, readAt = readAt', stored = stored', feed = feed'}
         path = FramePath.fromFrame f
         motion = inFrame setup rest' f path more
      in FrameBegins

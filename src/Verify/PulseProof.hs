@@ -19,7 +19,7 @@ import Machine.Controller (FrequencyLimits)
 import Machine.Machine (Machine, MachineName (..))
 import Machine.Machine qualified as Machine
 import Pulse.ControllerRun (StopReason (..))
-import Pulse.FramePath (feedText)
+import Pulse.FramePath (feedText, roundedDown)
 import Pulse.RunMeasure (FrequencyPeak (..), RunTotal)
 import Pulse.Steps (Pulses5)
 import Pulse.Steps qualified as Steps
@@ -177,7 +177,7 @@ stopReport why = case why of
           [ "It asks "
               <> feedText asked
               <> "; the controller can run "
-              <> feedText most
+              <> feedText (roundedDown most)
               <> " there."
           ]
       }

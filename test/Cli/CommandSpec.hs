@@ -240,19 +240,19 @@ spec = do
         good `shouldBe` ExitSuccess
         table `shouldSatisfy` isInfixOf "verdict on the pulses  proven"
         (_, text, _) <- partc ["machines", "n55", "--text"]
-        let slow = Text.replace "clock 80000 Hz" "clock 1000 Hz" (Text.pack text)
+        let slow = Text.replace "cycle-line 4 ticks" "cycle-line 1000 ticks" (Text.pack text)
             machine = folder </> "slow.machine"
         ByteString.writeFile machine (Encoding.encodeUtf8 slow)
         (bad, table', err) <- partc ["verify", "examples/flange.part", "-t", machine, "--pulses"]
         bad `shouldBe` ExitFailure 3
         table' `shouldSatisfy` isInfixOf "verdict on the pulses  WRONG"
-        err `shouldSatisfy` isInfixOf "error[E0721]: the controller stops before frame 3"
+        err `shouldSatisfy` isInfixOf "error[E0721]: the controller stops before frame 2"
         (refused, _, err'') <- partc ["run", "examples/flange.part", "-t", machine]
         refused `shouldBe` ExitFailure 1
         err''
           `shouldSatisfy` isInfixOf
-            "error[E0602]: the controller cannot run frame 3: its feed of 60 mm/min is too high"
-        err'' `shouldSatisfy` isInfixOf "The largest feed that it can run there is 40 mm/min."
+            "error[E0602]: frame 2 asks 60 mm/min, too fast for the controller"
+        err'' `shouldSatisfy` isInfixOf "The largest feed that it can run there is 47.87 mm/min."
         (none, _, err') <- partc ["verify", "examples/flange.part", "-t", "iso6983", "--pulses"]
         none `shouldBe` ExitFailure 1
         err' `shouldSatisfy` isInfixOf "error[E0815]"

@@ -51,6 +51,41 @@ spec = describe "partc run" $ do
       code `shouldBe` ExitFailure 1
       out `shouldSatisfy` isInfixOf "ошибка считывания"
       err `shouldSatisfy` isInfixOf "E0601"
+  it "refuses frames that the tape lacks, and switches that the control lacks" $ do
+    let refused code options = do
+          (exit, out, err) <- partc (["run", "examples/cone.n55.tape", "-t", "n55"] <> options)
+          (exit, out) `shouldBe` (ExitFailure 1, "")
+          err `shouldSatisfy` isInfixOf ("error[" <> code <> "]")
+    refused "E0812" ["--from", "8", "--to", "3"]
+    refused "E0812" ["--pulses", "--from", "99"]
+    refused "E0812" ["--speed", "--from", "13"]
+    refused "E0816" ["--switch", "36=5"]
+    refused "E0816" ["--switch", "1=5", "--switch", "1=6"]
+  it "draws no picture of a run that stops at a fault, and keeps the file that was there" $
+    inFolder $ \folder -> do
+      tape <- ByteString.readFile "examples/cone.n55.tape"
+      let torn = folder </> "torn.n55.tape"
+          picture = folder </> "speed.svg"
+      ByteString.writeFile torn (ByteString.take 150 tape <> "\255" <> ByteString.drop 151 tape)
+      ByteString.writeFile picture "kept"
+      (code, _, err) <- partc ["run", torn, "-t", "n55", "--speed", "-o", picture]
+      code `shouldBe` ExitFailure 1
+      err `shouldSatisfy` isInfixOf "E0601"
+      ByteString.readFile picture `shouldReturn` "kept"
+  it "begins where the program begins, on a machine whose tapes give positions" $
+    inFolder $ \folder -> do
+      let file = folder </> "away.part"
+      ByteString.writeFile file . Encoding.encodeUtf8 . Text.unlines $
+        [ "part away",
+          "machine iso6983",
+          "tool mill(diameter 10 mm)",
+          "tolerance 0.02 mm",
+          "from (100, 0)",
+          "feed 60 mm/min",
+          "move (110, 0)"
+        ]
+      (_, out, _) <- partc ["run", file, "--json", "--to", "1"]
+      out `shouldSatisfy` isInfixOf "\"pulses\":{\"x\":10000,\"y\":0,\"z\":0}"
   it "has times but no pulses for G-code (E0815)" $ do
     (code, out, _) <- partc ["run", "examples/flange.part", "-t", "iso6983"]
     (none, _, err) <- partc ["run", "examples/flange.part", "-t", "iso6983", "--pulses"]

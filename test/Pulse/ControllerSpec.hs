@@ -34,7 +34,7 @@ import Pulse.Controller qualified as Controller
 import Pulse.ControllerRun (ControllerRun (..), StopReason (..))
 import Pulse.ControllerRun qualified as ControllerRun
 import Pulse.FrameCompensation (switchRadii)
-import Pulse.FramePath (feedText)
+import Pulse.FramePath (feedText, feedValue, roundedDown)
 import Pulse.IntegratorFeed qualified as IntegratorFeed
 import Pulse.RunMeasure (FrameMeasure, JobLoad (..), RunTotal (..))
 import Pulse.RunMeasure qualified as Measure
@@ -145,6 +145,14 @@ sources = do
 
 feeds :: Spec
 feeds = do
+  it "of an axis that turns back jump by their sum (catches jumps without signs)" $
+    map (take 1 . Measure.jumps) (fst (measured lkp01f [line 5 600 0, line 5 (-600) 0]))
+      `shouldSatisfy` \case
+        [[], [jump]] -> isNear 0.001 (2 * hertz) jump
+          where
+            hertz = fromMaybe 0 (Machine.valueOf lkp01f (FeedCode 5)) / 60 / pulseOfX
+            Mm pulseOfX = Machine.resolutionOf lkp01f Machine.X
+        _ -> False
   it "are within one percent on lines, outside of ramps (catches a wrong length or a wrong share)" $
     forAll ((,) <$> elements straightMachines <*> lineFrame) $ \(machine, (k, x, y)) ->
       let code = codeOf machine k
@@ -169,6 +177,27 @@ feeds = do
     refusal kontur3p (line 27 3000 1000) `shouldBe` Just (1, "900 Hz", "800 Hz")
     refusal n55 (line 120 3000 0) `shouldBe` Just (1, "120 mm/min", "66.67 mm/min")
     refusal n55 turning `shouldBe` Just (1, "5000°/min", "6.67°/min")
+  it "that are refused leave a largest feed that is not (catches a limit that is rounded up)" $
+    forAll (oneof [longLine, wideArc]) $ \f ->
+      let stop feed = stopReason (snd (measured n55 [f {feedCode = FeedCode feed}]))
+       in case stop 9999 of
+            TooFast _ _ most ->
+              conjoin
+                [ stop (floor (feedValue (roundedDown most))) === TapeEnds,
+                  counterexample "a higher feed" (isTooFast (stop (floor (feedValue most) + 1)))
+                ]
+            why -> counterexample (show why) (property False)
+  it "rise again after a wait for the reader (catches a feed that stays while the axes stand)" $ do
+    let ramped = flip with lkiU $ \case
+          Stepping c -> Stepping c {stepReader = Just (TapeReader 20 (Seconds 0) 1 Nothing)}
+          other -> other
+        tape = [line 30 30 0, line 30 2000 0]
+    case fst (measured ramped tape) of
+      [_, m] -> do
+        Measure.waitedFor m `shouldSatisfy` (> 0)
+        fmap (\(_, least, _) -> least) (Measure.feeds m)
+          `shouldSatisfy` maybe False (< 0.9 * fromMaybe 0 (Machine.valueOf lkiU (FeedCode 30)))
+      ms -> length ms `shouldBe` 2
   it "of n55 are within 2.5 percent on arcs of 2 mm and more (catches a wrong direction)" $
     forAll (arcFrame 200 3000) $ \(from, to, sense) ->
       forAll (choose (60, 1500)) $ \code ->
@@ -272,6 +301,18 @@ jobWaits =
       pure (arc code sense from to)
 
 -- Damaged tapes -----------------------------------------------------------------------------------
+
+longLine :: Gen Frame
+longLine = line 9999 <$> choose (-900, 900) <*> choose (1, 900)
+
+-- | Arc of at least 2 mm radius.
+wideArc :: Gen Frame
+wideArc = (\(from, to, sense) -> arc 9999 sense from to) <$> arcFrame 200 3000
+
+isTooFast :: StopReason -> Bool
+isTooFast why = case why of
+  TooFast {} -> True
+  _ -> False
 
 damaged :: Int -> Spec
 damaged tapes = do
