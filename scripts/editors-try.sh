@@ -3,7 +3,7 @@
 #
 #   editors-try.sh PARTC
 #
-# - Emacs with editors/emacs
+# - Emacs with editors/emacs, through eglot and, if it is installed, lsp-mode
 # - Neovim with the settings of editors/nvim/README.md for Neovim without the plugin
 # - Kakoune with editors/kakoune
 #
@@ -68,6 +68,7 @@ have() {
 
 if have emacs emacs; then
   try emacs 1 emacs -q --batch -L editors/emacs -l test/editors/emacs.el
+  try emacs-lsp-mode 0 emacs -q --batch -L editors/emacs -l test/editors/emacs-lsp-mode.el
 fi
 
 if have nvim neovim; then
