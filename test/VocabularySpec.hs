@@ -1,14 +1,17 @@
--- | Every function and every unit of the language is in the manual, and Neovim colours it.
+-- | Every function and every unit of the language is in the manual. The editors know these and all
+-- keywords.
 module VocabularySpec
   ( spec,
   )
 where
 
 import Checked.Builtin qualified as Builtin
+import Control.Monad (forM_)
 import Data.Char (isAlpha)
 import Data.Text (Text)
 import Data.Text qualified as Text
 import Files (readText)
+import Surface.Keyword qualified as Keyword
 import Surface.Token qualified as Token
 import Test.Hspec
 
@@ -18,29 +21,45 @@ spec = do
     it "is on the page of functions" $ do
       page <- readText "docs/functions.md"
       filter (not . (`elem` inBackquotes page)) Builtin.names `shouldBe` []
-    it "is a word of the syntax file of Neovim" $ do
-      syntax <- editorWords
-      filter (`notElem` syntax) Builtin.names `shouldBe` []
+    forM_ withFunctions $ \file ->
+      it ("is a word of " <> file) $ file `hasAll` Builtin.names
   describe "each unit of the language" $ do
     it "is in the manual" $ do
       page <- readText "docs/language.md"
       filter (not . (`Text.isInfixOf` page) . quoted) units `shouldBe` []
-    it "is a word of the syntax file of Neovim" $ do
-      syntax <- editorWords
-      filter (`notElem` syntax) (concatMap (Text.splitOn "/") units) `shouldBe` []
+    forM_ (grammar : withFunctions) $ \file ->
+      it ("is a word of " <> file) $ file `hasAll` concatMap (Text.splitOn "/") units
+  describe "each keyword of the language" $
+    forM_ (grammar : colours : withFunctions) $ \file ->
+      it ("is a word of " <> file) $ file `hasAll` keywords
   where
     units = map Token.unitName [minBound .. maxBound]
     quoted unit = "`" <> unit <> "`"
+    keywords =
+      filter (`notElem` units) Keyword.reservedWords
+        <> Keyword.softStatements
+        <> concatMap
+          (concatMap Text.words . Keyword.settingsOf)
+          ["mill", "pocket", "turn", "drill"]
+    grammar = "editors/tree-sitter-part/grammar.js"
+    colours = "editors/tree-sitter-part/queries/highlights.scm"
+
+-- | The files of editors that list the functions of the language as well as its other words.
+withFunctions :: [FilePath]
+withFunctions =
+  ["editors/nvim/syntax/part.vim", "editors/emacs/part-mode.el", "editors/kakoune/part.kak"]
+
+-- | Fails if words are missing in a file, and names them.
+hasAll :: FilePath -> [Text] -> Expectation
+hasAll file wanted = do
+  known <- namesIn <$> readText file
+  filter (`notElem` known) wanted `shouldBe` []
 
 -- | The names in the code between backquotes of a page.
 inBackquotes :: Text -> [Text]
 inBackquotes page = concat [namesIn code | (code, True) <- zip (Text.splitOn "`" page) turns]
   where
     turns = cycle [False, True]
-
--- | The words of the syntax file.
-editorWords :: IO [Text]
-editorWords = namesIn <$> readText "editors/nvim/syntax/part.vim"
 
 -- | The names in a text: letters, digits and underscores.
 namesIn :: Text -> [Text]
