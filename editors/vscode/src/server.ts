@@ -3,7 +3,7 @@
 import { execFile } from 'child_process'
 import * as vscode from 'vscode'
 import { LanguageClient, ResponseError, type LanguageClientOptions } from 'vscode-languageclient/node'
-import { settings } from './settings'
+import { settings, type Settings } from './settings'
 
 // The answer to the request partc/at: a title, rows of a table, and the text of a drawing.
 export interface At {
@@ -81,14 +81,15 @@ export class Server implements vscode.Disposable {
   }
 
   private async startNow(): Promise<void> {
-    const { path, arguments: further } = settings()
-    const fault = await faultOf(path)
+    const wanted = settings()
+    const fault = await faultOf(wanted)
     if (fault) {
       // Not awaited: the message stays until the user answers it.
       void report(fault)
       return
     }
-    const client = new LanguageClient('partc', 'partc', { command: path, args: ['lsp', ...further] }, this.options())
+    const command = { command: wanted.path, args: ['lsp', ...wanted.arguments] }
+    const client = new LanguageClient('partc', 'partc', command, this.options())
     client.onNotification('partc/settled', ({ uri }: { uri: string }) =>
       this.settled.fire(client.protocol2CodeConverter.asUri(uri).toString()),
     )
@@ -101,7 +102,7 @@ export class Server implements vscode.Disposable {
   private async stopNow(): Promise<void> {
     const client = this.client
     this.client = undefined
-    // A client that failed to start has nothing to stop, and says so.
+    // A client that failed to start cannot be stopped.
     if (client?.needsStop()) await client.dispose()
   }
 
@@ -120,22 +121,25 @@ export class Server implements vscode.Disposable {
   }
 }
 
-// Tries to run a program. The result is a sentence about what is wrong with it, or nothing.
-function faultOf(path: string): Promise<string | undefined> {
+// Tries if the server would start: asks it for its help, with the arguments of the user. Without this test,
+// vscode-languageclient would start a server that ends at once five times, with several messages for each time. The result
+// is a sentence for the user, or nothing if the server would start.
+function faultOf({ path, arguments: further }: Settings): Promise<string | undefined> {
   return new Promise((resolve) => {
-    execFile(path, ['--version'], { timeout: 10000 }, (failure) => {
-      if (!failure) resolve(undefined)
-      else if ((failure as NodeJS.ErrnoException).code === 'ENOENT') resolve(`There is no program "${path}".`)
-      else resolve(`The program "${path}" does not run (${failure.message.split('\n')[0]}).`)
+    execFile(path, ['lsp', ...further, '--help'], { timeout: 10000 }, (failure, stdout, stderr) => {
+      const reason = (stderr || failure?.message || '').split('\n')[0].trim()
+      if ((failure as NodeJS.ErrnoException | null)?.code === 'ENOENT')
+        resolve(`There is no program "${path}". Install partc, or write its location into the setting partc.path.`)
+      else if (failure)
+        resolve(`partc does not start (${reason}). Correct the setting partc.path or partc.arguments.`)
+      else if (!stdout.includes('partc lsp')) resolve(`"${path}" is not partc. Correct the setting partc.path.`)
+      else resolve(undefined)
     })
   })
 }
 
 async function report(fault: string): Promise<void> {
   const open = 'Open Settings'
-  const chosen = await vscode.window.showErrorMessage(
-    `${fault} Install partc, or write its location into the setting partc.path.`,
-    open,
-  )
-  if (chosen === open) await vscode.commands.executeCommand('workbench.action.openSettings', 'partc.path')
+  const chosen = await vscode.window.showErrorMessage(fault, open)
+  if (chosen === open) await vscode.commands.executeCommand('workbench.action.openSettings', 'partc')
 }
