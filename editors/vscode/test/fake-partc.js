@@ -1,6 +1,7 @@
 #!/usr/bin/env node
 // Plays the part of a later `partc`, whose server answers the request partc/at and sends partc/settled. The answer is about
-// the word at the position; the word `nothing` has no answer, and the word `late` has one after 300 ms.
+// the word at the position; the word `nothing` has no answer, and the word `late` has one after 300 ms. With the argument
+// --quiet the server does not know the request, and writes into the log of the editor that it was asked.
 const rpc = require('vscode-languageserver-protocol/node')
 
 if (process.argv.includes('--help')) {
@@ -24,6 +25,10 @@ connection.onNotification('textDocument/didChange', ({ textDocument, contentChan
 })
 connection.onRequest('partc/at', async ({ textDocument, position }) => {
   count += 1
+  if (process.argv.includes('--quiet')) {
+    connection.sendNotification('window/logMessage', { type: 1, message: 'asked' })
+    return new rpc.ResponseError(rpc.ErrorCodes.MethodNotFound, 'there is no request partc/at')
+  }
   const word = text.split('\n')[position.line].split(' ')[0]
   if (word === 'nothing') return null
   if (word === 'late') await new Promise((resolve) => setTimeout(resolve, 300))

@@ -79,17 +79,37 @@ test('the panel is refreshed after each analysis of its program', async () => {
   await end()
 })
 
-test('a server without this request is asked once', async () => {
-  const { panel, end } = await shown(partc, fs.readFileSync(path.join(repository, 'examples', 'flange.part'), 'utf8'))
+test('a server that does not know the request is asked once', async () => {
+  stub.configure('partc.arguments', ['--quiet'])
+  const { panel, end } = await shown(later, 'one\ntwo\n')
+  const unknown = { sentence: 'This version of partc cannot show what is at the cursor.' }
   await stub.until(() => panel.posted.length === 1, 'the panel shows something')
-  if (last(panel).sentence === undefined) {
-    // This partc knows the request.
-    assert.strictEqual(typeof last(panel).title, 'string')
+  assert.deepStrictEqual(last(panel), unknown)
+  stub.moveCursor(1, 0)
+  await stub.until(() => panel.posted.length === 2, 'the panel shows something')
+  assert.deepStrictEqual(last(panel), unknown)
+  assert.strictEqual(stub.log.filter((line) => line.includes('asked')).length, 1)
+  assert.deepStrictEqual(stub.messages, [])
+
+  // A server of another version is asked again.
+  stub.configure('partc.arguments', [])
+  stub.configurationChanged('partc.arguments')
+  await stub.until(() => last(panel).title === 'two', 'the panel shows the answer')
+  await end()
+})
+
+test('the panel shows an answer of the real server, or that there is none', async () => {
+  const { document, panel, end } = await shown(partc, fs.readFileSync(path.join(repository, 'examples', 'flange.part'), 'utf8'))
+  const { line } = document.positionAt(document.text.indexOf('let lug'))
+  stub.moveCursor(line, 'let l'.length)
+  await stub.until(() => panel.posted.length >= 1, 'the panel shows something')
+  const { title, rows, svg, sentence } = last(panel)
+  if (sentence === undefined) {
+    assert.strictEqual(typeof title, 'string')
+    assert.ok(rows.every((row) => row.length === 2 && row.every((cell) => typeof cell === 'string')))
+    if (svg !== undefined) assert.match(svg, /<svg/)
   } else {
-    stub.log.length = 0
-    stub.moveCursor(6, 3)
-    await stub.until(() => panel.posted.length === 2, 'the panel shows something')
-    assert.deepStrictEqual(last(panel), { sentence: 'This version of partc cannot show what is at the cursor.' })
+    assert.strictEqual(sentence, 'This version of partc cannot show what is at the cursor.')
   }
   assert.deepStrictEqual(stub.messages, [])
   await end()
