@@ -83,7 +83,7 @@ const table = expanded(part.Table)
 const above = {
   Program: '',
   Curve: head + table,
-  Piece: head + table + expanded(part.Curve),
+  Piece: `${head + table + expanded(part.Curve)}\n`,
   Mill: deep + expanded(part.Contour),
   Pocket: `${deep}contour recess closed {\n  ccw circle((30, 20), 25)\n}\n`,
   Drill: deep.replace('mill(', 'drill('),
