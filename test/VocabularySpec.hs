@@ -1,14 +1,17 @@
--- | Every function and every unit of the language is in the manual, and Neovim colours it.
+-- | Every function and every unit of the language is in the manual, and Neovim and VS Code colour
+-- them and the reserved words.
 module VocabularySpec
   ( spec,
   )
 where
 
 import Checked.Builtin qualified as Builtin
+import Control.Monad (forM_)
 import Data.Char (isAlpha)
 import Data.Text (Text)
 import Data.Text qualified as Text
 import Files (readText)
+import Surface.Keyword qualified as Keyword
 import Surface.Token qualified as Token
 import Test.Hspec
 
@@ -18,16 +21,14 @@ spec = do
     it "is on the page of functions" $ do
       page <- readText "docs/functions.md"
       filter (not . (`elem` inBackquotes page)) Builtin.names `shouldBe` []
-    it "is a word of the syntax file of Neovim" $ do
-      syntax <- editorWords
-      filter (`notElem` syntax) Builtin.names `shouldBe` []
+    isInEverySyntaxFile Builtin.names
   describe "each unit of the language" $ do
     it "is in the manual" $ do
       page <- readText "docs/language.md"
       filter (not . (`Text.isInfixOf` page) . quoted) units `shouldBe` []
-    it "is a word of the syntax file of Neovim" $ do
-      syntax <- editorWords
-      filter (`notElem` syntax) (concatMap (Text.splitOn "/") units) `shouldBe` []
+    isInEverySyntaxFile (concatMap (Text.splitOn "/") units)
+  describe "each reserved word of the language" $
+    isInEverySyntaxFile (concatMap (Text.splitOn "/") Keyword.reservedWords)
   where
     units = map Token.unitName [minBound .. maxBound]
     quoted unit = "`" <> unit <> "`"
@@ -38,9 +39,20 @@ inBackquotes page = concat [namesIn code | (code, True) <- zip (Text.splitOn "`"
   where
     turns = cycle [False, True]
 
--- | The words of the syntax file.
-editorWords :: IO [Text]
-editorWords = namesIn <$> readText "editors/nvim/syntax/part.vim"
+-- | For each editor, a test that each of these words is a word of its syntax file.
+isInEverySyntaxFile :: [Text] -> Spec
+isInEverySyntaxFile wanted =
+  forM_ syntaxFiles $ \(editor, file) ->
+    it ("is a word of the syntax file of " <> editor) $ do
+      syntax <- namesIn <$> readText file
+      filter (`notElem` syntax) wanted `shouldBe` []
+
+-- | The editors, each with its syntax file for part programs.
+syntaxFiles :: [(String, FilePath)]
+syntaxFiles =
+  [ ("Neovim", "editors/nvim/syntax/part.vim"),
+    ("VS Code", "editors/vscode/syntaxes/part.tmLanguage.json")
+  ]
 
 -- | The names in a text: letters, digits and underscores.
 namesIn :: Text -> [Text]
