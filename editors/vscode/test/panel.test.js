@@ -14,7 +14,7 @@ const last = (panel) => panel.posted.at(-1)
 // Opens a text, activates the extension with this program, and shows the panel.
 async function shown(program, text) {
   stub.configure('partc.path', program)
-  const document = stub.open(temporary('a.part', text), 'part')
+  const document = stub.open(temporary('деталь 1.part', text), 'part')
   const context = await activate()
   await vscode.commands.executeCommand('partc.showPicture')
   const [panel] = stub.panels

@@ -110,6 +110,15 @@ test('hover, definition, outline and formatting are those of the server', async 
   stub.close(document)
 })
 
+test('the setting partc.trace.server writes the messages to the output channel', async () => {
+  stub.configure('partc.trace.server', 'messages')
+  const document = stub.open(temporary('flange.part', flange), 'part')
+  const context = await activate()
+  await stub.until(() => stub.log.some((line) => line.includes('textDocument/didOpen')), 'the message is written')
+  await deactivate(context)
+  stub.close(document)
+})
+
 test('a restart replaces the process', async () => {
   const file = temporary('flange.part', faulty)
   const document = stub.open(file, 'part')
