@@ -1,6 +1,6 @@
 #!/usr/bin/env node
 // Plays the part of a later `partc`, whose server answers the request partc/at and sends partc/settled. The answer is about
-// the word at the position; the word `nothing` has no answer, and the word `late` has one after 300 ms. With the argument
+// the word at the position; the word `nothing` has no answer, and the word `late` has one after a second. With the argument
 // --quiet the server does not know the request, and writes into the log of the editor that it was asked.
 const rpc = require('vscode-languageserver-protocol/node')
 
@@ -31,7 +31,7 @@ connection.onRequest('partc/at', async ({ textDocument, position }) => {
   }
   const word = text.split('\n')[position.line].split(' ')[0]
   if (word === 'nothing') return null
-  if (word === 'late') await new Promise((resolve) => setTimeout(resolve, 300))
+  if (word === 'late') await new Promise((resolve) => setTimeout(resolve, 1000))
   return { title: word, rows: [['question', String(count)]], svg: word === 'drawn' ? '<svg>#1</svg>' : undefined }
 })
 connection.listen()

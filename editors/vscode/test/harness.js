@@ -1,6 +1,7 @@
 // Loads the compiled extension with the stub in the place of VS Code.
 const fs = require('fs')
 const Module = require('module')
+const { after } = require('node:test')
 const os = require('os')
 const path = require('path')
 
@@ -12,6 +13,9 @@ Module._resolveFilename = (request, ...rest) => (request === 'vscode' ? stubFile
 
 const vscode = require('vscode')
 const extension = require(path.join(root, 'out', 'extension.js'))
+
+// A server that a failed test has left behind must not keep the tests from ending.
+after(() => setTimeout(() => process.exit(1), 2000).unref())
 
 // The ids of the processes that this process has started and that still run.
 function children() {

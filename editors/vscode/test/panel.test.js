@@ -50,10 +50,7 @@ test('the panel follows the cursor', async () => {
 test('many movements within 100 ms are one question', async () => {
   const { panel, end } = await shown(later, 'one\ntwo\nthree\n')
   await stub.until(() => panel.posted.length === 1, 'the panel shows something')
-  for (const line of [1, 2, 1, 2]) {
-    stub.moveCursor(line, 0)
-    await pause(10)
-  }
+  for (const line of [1, 2, 1, 2]) stub.moveCursor(line, 0)
   await stub.until(() => panel.posted.length === 2, 'the panel follows')
   assert.deepStrictEqual(last(panel), { title: 'three', rows: [['question', '2']] })
   await end()
@@ -64,7 +61,7 @@ test('a late answer does not replace a newer one', async () => {
   await pause(200)
   stub.moveCursor(1, 0)
   await stub.until(() => panel.posted.length === 1, 'the panel shows something')
-  await pause(300)
+  await pause(1200)
   assert.strictEqual(panel.posted.length, 1)
   assert.strictEqual(last(panel).title, 'two')
   await end()
