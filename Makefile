@@ -42,11 +42,11 @@ NPM_CI := $(NPM) ci --ignore-scripts --no-audit --no-fund
 banner = @printf '== %s\n' '$(1)'
 quietly = @bash scripts/quietly.sh
 
-.PHONY: vsix vscode-test mutants pictures help setup build test check format format-check lint commits bench demo install deb dist deb-try clean
+.PHONY: mutants pictures tree-sitter-test editors-test vsix vscode-test help setup build test check format format-check lint commits bench demo install deb dist deb-try clean
 
 help: ## this list
 	@printf 'make demo|test|...\n\n'
-	@sed -nE 's/^([a-z-]+):[^#]*## (.*)/  \1\t\2/p' $(MAKEFILE_LIST) | expand -t 16
+	@sed -nE 's/^([a-z-]+):[^#]*## (.*)/  \1\t\2/p' $(MAKEFILE_LIST) | expand -t 20
 
 setup: ## install all Debian packages that are missing, and the commit hook
 	@bash scripts/setup.sh
@@ -106,6 +106,14 @@ pictures: needs-build needs-test ## draw the pictures of the documents anew from
 mutants: needs-build needs-test ## put one bug into the code for every law; fail if the law does not notice it
 	$(call banner,mutants)
 	@bash scripts/mutants.sh $(MUTANTS)
+
+tree-sitter-test: build ## test the grammar for tree-sitter; needs tree-sitter-cli
+	$(call banner,tree-sitter)
+	@bash scripts/tree-sitter-try.sh "$(PARTC)"
+
+editors-test: build ## try the editors that are installed, each with the language server
+	$(call banner,editors)
+	@bash scripts/editors-try.sh "$(PARTC)"
 
 demo: build ## compile, prove, report and draw an example part
 	@mkdir -p build

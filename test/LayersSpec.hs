@@ -112,7 +112,8 @@ pureAfterAll = ["System.Console.ANSI.Codes", "System.Console.ANSI.Types", "Syste
 stageData :: Map Text [Text]
 stageData =
   Map.fromList
-    [ ("Report.Report", []),
+    [ ("Report.Fix", []),
+      ("Report.Report", ["Report.Fix"]),
       ("Surface.Syntax", ["Surface.Token"]),
       ("Checked.Syntax", ["Checked.Dimension"]),
       ("Part.Part", ["Part.Curve", "Part.Link"]),

@@ -1,5 +1,5 @@
--- | Every function and every unit of the language is in the manual, and Neovim and VS Code colour
--- them and the reserved words.
+-- | Every function and every unit of the language is in the manual. The editors know these and all
+-- keywords.
 module VocabularySpec
   ( spec,
   )
@@ -21,38 +21,49 @@ spec = do
     it "is on the page of functions" $ do
       page <- readText "docs/functions.md"
       filter (not . (`elem` inBackquotes page)) Builtin.names `shouldBe` []
-    isInEverySyntaxFile Builtin.names
+    forM_ withFunctions $ \file ->
+      it ("is a word of " <> file) $ file `hasAll` Builtin.names
   describe "each unit of the language" $ do
     it "is in the manual" $ do
       page <- readText "docs/language.md"
       filter (not . (`Text.isInfixOf` page) . quoted) units `shouldBe` []
-    isInEverySyntaxFile (concatMap (Text.splitOn "/") units)
-  describe "each reserved word of the language" $
-    isInEverySyntaxFile (concatMap (Text.splitOn "/") Keyword.reservedWords)
+    forM_ (grammar : withFunctions) $ \file ->
+      it ("is a word of " <> file) $ file `hasAll` concatMap (Text.splitOn "/") units
+  describe "each keyword of the language" $
+    forM_ (grammar : colours : withFunctions) $ \file ->
+      it ("is a word of " <> file) $ file `hasAll` keywords
   where
     units = map Token.unitName [minBound .. maxBound]
     quoted unit = "`" <> unit <> "`"
+    keywords =
+      filter (`notElem` units) Keyword.reservedWords
+        <> Keyword.softStatements
+        <> concatMap
+          (concatMap Text.words . Keyword.settingsOf)
+          ["mill", "pocket", "turn", "drill"]
+    grammar = "editors/tree-sitter-part/grammar.js"
+    colours = "editors/tree-sitter-part/queries/highlights.scm"
+
+-- | The files of editors that list the functions of the language as well as its other words.
+withFunctions :: [FilePath]
+withFunctions =
+  [ "editors/nvim/syntax/part.vim",
+    "editors/emacs/part-mode.el",
+    "editors/kakoune/part.kak",
+    "editors/vscode/syntaxes/part.tmLanguage.json"
+  ]
+
+-- | Fails if words are missing in a file, and names them.
+hasAll :: FilePath -> [Text] -> Expectation
+hasAll file wanted = do
+  known <- namesIn <$> readText file
+  filter (`notElem` known) wanted `shouldBe` []
 
 -- | The names in the code between backquotes of a page.
 inBackquotes :: Text -> [Text]
 inBackquotes page = concat [namesIn code | (code, True) <- zip (Text.splitOn "`" page) turns]
   where
     turns = cycle [False, True]
-
--- | For each editor, a test that each of these words is a word of its syntax file.
-isInEverySyntaxFile :: [Text] -> Spec
-isInEverySyntaxFile wanted =
-  forM_ syntaxFiles $ \(editor, file) ->
-    it ("is a word of the syntax file of " <> editor) $ do
-      syntax <- namesIn <$> readText file
-      filter (`notElem` syntax) wanted `shouldBe` []
-
--- | The editors, each with its syntax file for part programs.
-syntaxFiles :: [(String, FilePath)]
-syntaxFiles =
-  [ ("Neovim", "editors/nvim/syntax/part.vim"),
-    ("VS Code", "editors/vscode/syntaxes/part.tmLanguage.json")
-  ]
 
 -- | The names in a text: letters, digits and underscores.
 namesIn :: Text -> [Text]

@@ -18,8 +18,8 @@ newtype Name = Name {text :: Text}
   deriving stock (Show)
 
 -- | The candidates that the user may have meant by the misspelt name @wanted@, nearest first. Their
--- Levenshtein distance from it is at most a third of its length. Upper and lower case count as the
--- same letter.
+-- edit distance from it is at most a third of its length. Upper and lower case count as the same
+-- letter.
 nearest :: Text -> [Text] -> [Text]
 nearest wanted candidates =
   map
@@ -51,22 +51,31 @@ lookAlike wanted candidates =
 latin :: Char -> Char
 latin c = Maybe.fromMaybe c (lookup c (zip "асеорхуіјѕАВСЕНІЈКМОРЅТХ" "aceopxyijsABCEHIJKMOPSTX"))
 
--- | The Levenshtein distance of the words @a@ and @b@: the least count of letters to insert, delete
--- or replace. Nothing if it exceeds @most@.
+-- | The edit distance of the words @a@ and @b@: the least count of letters to insert, delete or
+-- replace, and of neighbours to exchange. Nothing if it exceeds @most@.
 --
--- The table of the Wagner–Fischer algorithm is computed row by row. The computation stops at the
--- first row in which all distances exceed @most@. Usually this is one of the first rows.
+-- The table of the Wagner–Fischer algorithm, with exchanges as in optimal string alignment, is
+-- computed row by row. The computation stops when no later row can have a distance of at most
+-- @most@. Usually this is after a few rows.
 distance :: Int -> String -> String -> Maybe Int
-distance most a b = go [0 .. length b] a
+distance most a b = go Nothing [0 .. length b] a
   where
     -- A row contains the distances of one prefix of @a@ from every prefix of @b@, the empty one
-    -- first.
-    go row rest = case rest of
-      _ | all (> most) row -> Nothing
+    -- first. The first argument is the last letter of this prefix, and the row before.
+    go before row rest = case rest of
+      _ | all (> most) row && maybe True (all (>= most) . snd) before -> Nothing
       [] -> let d = last row in if d <= most then Just d else Nothing
-      c : more -> go (next c row) more
-    next c row = case row of
+      c : more -> go (Just (c, row)) (next c before row) more
+    next c before row = case row of
       [] -> []
-      first : others -> scanl (cell c) (first + 1) (zip3 b row others)
-    cell c left (d, diagonal, above) =
-      min (min left above + 1) (if c == d then diagonal else diagonal + 1)
+      first : others -> scanl (cell c) (first + 1) (zip3 (zip b (exchanged c before)) row others)
+    cell c left ((d, swapped), diagonal, above) =
+      minimum [left + 1, above + 1, if c == d then diagonal else diagonal + 1, swapped]
+    -- For each letter of @b@, the distance if it and the letter before it are exchanged.
+    exchanged c before = case before of
+      Nothing -> repeat maxBound
+      Just (p, row) ->
+        maxBound :
+          [ if c == x && p == y then d + 1 else maxBound
+            | (x, y, d) <- zip3 b (drop 1 b) row
+          ]

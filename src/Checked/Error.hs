@@ -17,7 +17,7 @@ where
 import Base.Decimal qualified as Decimal
 import Base.Name (Name (..))
 import Base.Name qualified as Name
-import Base.Region (Region)
+import Base.Region (Region (start))
 import Checked.Syntax (Operator (..))
 import Checked.Type (Type (..))
 import Checked.Type qualified as Type
@@ -25,6 +25,8 @@ import Data.List.NonEmpty (NonEmpty)
 import Data.List.NonEmpty qualified as NonEmpty
 import Data.Text (Text)
 import Data.Text qualified as Text
+import Report.Fix (Fix)
+import Report.Fix qualified as Fix
 import Report.Report
   ( Label (..),
     Report (..),
@@ -140,14 +142,14 @@ toReport :: Error -> Report
 toReport err = case err of
   UndefinedName region (Name name) known ->
     (at region "E0201" ("nothing is named " <> quote name))
-      { hints = case (Name.lookAlike name known, Name.nearest name known) of
-          (_ : _, _) ->
-            [ "There is a name that looks the same but has a letter of the other alphabet, \
-              \Cyrillic or Latin: write both alike."
-            ]
-          ([], []) -> []
-          ([], near) ->
-            ["Did you mean " <> Text.intercalate " or " (map quote (take 2 near)) <> "?"]
+      { fixes =
+          [ Fix.exchange ("Write " <> quote w <> ".") region w
+            | w <- take 2 (Name.lookAlike name known <> Name.nearest name known)
+          ],
+        hints =
+          [ "One of both names has a letter of the other alphabet, Cyrillic or Latin."
+            | _ : _ <- [Name.lookAlike name known]
+          ]
       }
   UsedBeforeDefinition region (Name name) defined ->
     (at region "E0202" (quote name <> " is used before it is defined"))
@@ -177,6 +179,7 @@ toReport err = case err of
     )
       { label = Type.describe found,
         others = decidedLabels elsewhere,
+        fixes = mismatchFixes region expected found,
         hints = mismatchHint expected found
       }
   Disagree region operator (leftRegion, left) (rightRegion, right) elsewhere ->
@@ -238,7 +241,10 @@ toReport err = case err of
       }
   SenseMissing region ->
     (at region "E0211" "a circle in a contour needs a sense")
-      { hints = ["Write cw or ccw before it: clockwise or counter-clockwise."]
+      { fixes =
+          [ Fix.insertion "Write ccw before it: counter-clockwise." (start region) "ccw ",
+            Fix.insertion "Write cw before it: clockwise." (start region) "cw "
+          ]
       }
   SenseUnneeded region t ->
     (at region "E0212" ("cw and ccw stand before a circle, but this is " <> Type.describe t))
@@ -392,8 +398,12 @@ toReport err = case err of
           [ "This was control stop 14623 of the Minsk-22 system: the piece has no data for \
             \the cipher."
           ],
+        fixes =
+          [ Fix.exchange ("Write " <> quote w <> ".") region w
+            | w <- take 1 (Name.nearest name columns)
+          ],
         hints = case (Name.nearest name columns, columns) of
-          (w : _, _) -> ["Did you mean " <> quote w <> "?"]
+          (_ : _, _) -> []
           ([], []) ->
             [ "Only a curve through a table with more columns than x and y has values at its \
               \points; the first line of the table names them."
@@ -464,16 +474,27 @@ operationWords operation = case operation of
 
 mismatchHint :: Type -> Type -> [Text]
 mismatchHint expected found
-  | expected == Type.angle && found == Type.number =
-    ["A number of radians becomes an angle when it is multiplied by 1 rad."]
-  | expected == Type.number && found == Type.angle =
-    ["An angle becomes a number of radians when it is divided by 1 rad."]
-  | expected == Type.len && found == Type.number =
-    ["A number becomes a length when it is multiplied by 1 mm."]
-  | Table _ <- found, expected == ListOf Type.aPoint = ["The points of a table are points_of(…)."]
   | expected == found = []
   | Type.isSquare expected =
     ["The root is taken of a number, of an area, or of another product of two equal quantities."]
+  | otherwise = []
+
+-- | Fixes that give an expression the type that is needed.
+mismatchFixes :: Region -> Type -> Type -> [Fix]
+mismatchFixes region expected found
+  | expected == Type.angle && found == Type.number =
+    [ Fix.enclosure "Multiply the number by 1 deg, if it is in degrees." "(" region ") * 1 deg",
+      Fix.enclosure "Multiply the number by 1 rad, if it is in radians." "(" region ") * 1 rad"
+    ]
+  | expected == Type.number && found == Type.angle =
+    [Fix.enclosure "Divide the angle by 1 rad: a number of radians." "(" region ") / 1 rad"]
+  | expected == Type.len && found == Type.number =
+    [Fix.enclosure "Multiply the number by 1 mm." "(" region ") * 1 mm"]
+  | expected == Type.number && found == Type.len =
+    [Fix.enclosure "Divide the length by 1 mm." "(" region ") / 1 mm"]
+  | Table _ <- found,
+    expected == ListOf Type.aPoint =
+    [Fix.enclosure "Take the points of the table." "points_of(" region ")"]
   | otherwise = []
 
 settingWord :: RequiredSetting -> Text

@@ -63,6 +63,8 @@ data Subcommand
   | LanguageServer
   | -- | true to check the layout and write nothing; the programs
     Fmt Bool (NonEmpty FilePath)
+  | -- | true to show the changes and write nothing; the programs
+    Mend Bool (NonEmpty FilePath)
   deriving stock (Eq, Show)
 
 -- | The arguments of @compile@.
@@ -206,7 +208,12 @@ commands =
         "fmt"
         "Bring programs into the canonical layout, in place"
         "partc fmt flange.part"
-        (Fmt <$> checkFlag <*> (NonEmpty.fromList <$> some program))
+        (Fmt <$> checkFlag <*> (NonEmpty.fromList <$> some program)),
+      entry
+        "fix"
+        "Mend the mistakes that leave no choice, in place"
+        "partc fix --dry-run flange.part"
+        (Mend <$> dryRunFlag <*> (NonEmpty.fromList <$> some program))
     ]
   where
     entry name description example p =
@@ -325,6 +332,10 @@ pulsesFlag =
 textFlag :: Parser Bool
 textFlag =
   Opt.switch (Opt.long "text" <> Opt.help "The text of its description, to begin one's own with")
+
+dryRunFlag :: Parser Bool
+dryRunFlag =
+  Opt.switch (Opt.long "dry-run" <> Opt.help "Write nothing, and print what would be changed")
 
 checkFlag :: Parser Bool
 checkFlag =

@@ -12,6 +12,7 @@ import Base.Result (Result (..))
 import Base.Result qualified as Result
 import Cli.Error (Error (..), Warning (..))
 import Cli.Error qualified as Cli
+import Cli.FixCommand qualified as FixCommand
 import Cli.Formatter qualified as Formatter
 import Cli.FrameTable qualified as FrameTable
 import Cli.InputFile
@@ -101,6 +102,8 @@ perform reporter command = case command of
   LanguageServer -> languageServer reporter
   Fmt checkOnly files ->
     maximum <$> traverse (Formatter.fmt reporter checkOnly) (NonEmpty.toList files)
+  Mend isDry files ->
+    maximum <$> traverse (FixCommand.fix reporter isDry) (NonEmpty.toList files)
 
 -- Programs ----------------------------------------------------------------------------------------
 

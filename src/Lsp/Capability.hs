@@ -11,6 +11,7 @@ import Data.Aeson (Value (..), object, (.=))
 import Data.Aeson.Key (Key)
 import Data.Aeson.KeyMap qualified as KeyMap
 import Data.Foldable (toList)
+import Data.Maybe (isJust)
 import Data.Text (Text)
 
 -- | The capabilities of the client that change the form of answers and diagnostics.
@@ -20,7 +21,9 @@ data Client = Client
     -- | true if a hover may be Markdown
     markdown :: Bool,
     -- | true if a diagnostic may have related information, with ranges of its own
-    related :: Bool
+    related :: Bool,
+    -- | true if the answer to a request for code actions may contain actions, not only commands
+    actions :: Bool
   }
   deriving stock (Eq, Show)
 
@@ -33,6 +36,7 @@ fromInitialize params =
       markdown = case at ["hover", "contentFormat"] of
         Just (Array kinds) -> String "markdown" `elem` toList kinds
         _ -> False,
+      actions = isJust (at ["codeAction", "codeActionLiteralSupport"]),
       related = at ["publishDiagnostics", "relatedInformation"] == Just (Bool True)
     }
   where
@@ -62,7 +66,8 @@ initializeResult =
             "hoverProvider" .= True,
             "definitionProvider" .= True,
             "documentSymbolProvider" .= True,
-            "documentFormattingProvider" .= True
+            "documentFormattingProvider" .= True,
+            "codeActionProvider" .= object ["codeActionKinds" .= ["quickfix" :: Text]]
           ]
     ]
   where

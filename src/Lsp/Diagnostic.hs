@@ -3,6 +3,7 @@
 -- the compiler; the reports are read from it.
 module Lsp.Diagnostic
   ( publish,
+    diagnostic,
     bug,
   )
 where
@@ -23,6 +24,7 @@ import Lsp.Uri (Uri)
 import Query.Snapshot (Snapshot)
 import Query.Snapshot qualified as Snapshot
 import Report.Report (Label (..), Report (..), ReportCode (..), ReportPlace (..), Severity (..))
+import Report.Report qualified as Report
 
 -- | The notification that replaces all diagnostics of a document by the reports of a snapshot.
 -- Without a snapshot, it removes all diagnostics of the document.
@@ -48,6 +50,7 @@ notification Document {uri, version} diagnostics =
   Notify "textDocument/publishDiagnostics" . object $
     ["uri" .= uri, "diagnostics" .= diagnostics] <> ["version" .= v | Just v <- [version]]
 
+-- | Diagnostic of a report.
 diagnostic :: Client -> Uri -> Snapshot -> Report -> Value
 diagnostic client uri snapshot r =
   object $
@@ -68,7 +71,7 @@ diagnostic client uri snapshot r =
       [label r | length (Text.words (label r)) > 1, not (label r `Text.isInfixOf` title r)]
         <> [relatedLine l | not (related client), l <- others r]
         <> message r
-        <> map ("hint: " <>) (hints r)
+        <> map ("hint: " <>) (Report.remedies r)
     relatedLine (Label region text) = lineOf source region <> ": " <> text
     relation (Label region text) =
       object ["location" .= Location.location uri source region, "message" .= text]

@@ -7,22 +7,28 @@ module Lsp.Request
   )
 where
 
-import Base.Region (Source)
+import Base.Region (Region (..), Source)
 import Base.Region qualified as Region
 import Data.Aeson (Value (..), object, toJSON, withObject, (.:), (.=))
+import Data.Aeson.Key qualified as Key
 import Data.Aeson.Types (Parser)
 import Data.Maybe qualified as Maybe
 import Data.Text (Text)
+import Data.Text qualified as Text
 import Lsp.Capability (Client (..))
+import Lsp.Diagnostic qualified as Diagnostic
 import Lsp.Document (Document (..))
 import Lsp.Location qualified as Location
 import Lsp.Position qualified as Position
+import Lsp.Uri (Uri (..))
 import Query.Formatting qualified as Formatting
 import Query.Name qualified as Name
 import Query.Snapshot (Snapshot)
 import Query.Snapshot qualified as Snapshot
 import Query.Symbol (SymbolKind (..))
 import Query.Symbol qualified as Symbol
+import Report.Fix qualified as Fix
+import Report.Report (Report (fixes, place), ReportPlace (..))
 import Surface.Formatter qualified as Formatter
 
 -- | The document that a request is about. @now@ is the snapshot of its present text. @sound@ is the
@@ -43,7 +49,8 @@ table =
   [ ("textDocument/hover", hover),
     ("textDocument/definition", definition),
     ("textDocument/documentSymbol", symbols),
-    ("textDocument/formatting", formatting)
+    ("textDocument/formatting", formatting),
+    ("textDocument/codeAction", codeActions)
   ]
 
 -- | The position in the parameters of a request, as an offset: a count of characters from the
@@ -100,6 +107,38 @@ formatting _ subject _ =
       object
         [ "range" .= Position.range (source subject) (Formatting.region change),
           "newText" .= Formatting.newText change
+        ]
+
+-- | The fixes of all reports in a range, as actions of the kind @quickfix@.
+codeActions :: Method
+codeActions client subject = withObject "parameters" $ \o -> do
+  range <- o .: "range"
+  from <- withObject "a range" (\r -> Position.offset (source subject) <$> r .: "start") range
+  to <- withObject "a range" (\r -> Position.offset (source subject) <$> r .: "end") range
+  pure . toJSON $
+    [ action r f
+      | actions client,
+        r <- Snapshot.reports (now subject),
+        InSource (Region a b) <- [place r],
+        a <= to && b >= from,
+        f <- fixes r,
+        Fix.isWithin (source subject) f
+    ]
+  where
+    action r f =
+      object
+        [ "title" .= Text.dropWhileEnd (== '.') (Fix.title f),
+          "kind" .= ("quickfix" :: Text),
+          "diagnostics"
+            .= [Diagnostic.diagnostic client (uri (document subject)) (now subject) r],
+          "isPreferred" .= (length (fixes r) == 1),
+          "edit" .= object ["changes" .= object [Key.fromText address .= map edit (Fix.edits f)]]
+        ]
+    Uri address = uri (document subject)
+    edit e =
+      object
+        [ "range" .= Position.range (source subject) (Fix.replaced e),
+          "newText" .= Fix.newText e
         ]
 
 -- | The protocol's number of a kind of symbol.

@@ -158,7 +158,8 @@ cleaned r =
       label = clean (label r),
       others = [Label region (clean text) | Label region text <- others r],
       message = map clean (message r),
-      hints = map clean (hints r)
+      hints = map clean (Report.remedies r),
+      fixes = []
     }
   where
     clean = Excerpt.visible

@@ -9,12 +9,14 @@ where
 import Base.Decimal qualified as Decimal
 import Base.Region (Position (..), Region (..), Source)
 import Base.Region qualified as Region
-import Data.Aeson (Series, object, pairs, (.=))
+import Data.Aeson (Series, Value, object, pairs, (.=))
 import Data.Aeson.Encoding (encodingToLazyByteString)
 import Data.ByteString.Lazy qualified as LazyByteString
 import Data.Text (Text)
 import Data.Text.Encoding qualified as Encoding
 import Report.Excerpt qualified as Excerpt
+import Report.Fix (Fix)
+import Report.Fix qualified as Fix
 import Report.Report (Label (..), Report (..), ReportCode (..), ReportPlace (..))
 import Report.Report qualified as Report
 
@@ -57,7 +59,8 @@ json path source r =
         <> "title" .= title r
         <> "label" .= label r
         <> "message" .= message r
-        <> "hints" .= hints r
+        <> "hints" .= Report.remedies r
+        <> "fixes" .= map (jsonFix source) (filter (Fix.isWithin source) (fixes r))
         <> "related" .= map related (others r)
     file' = case place r of
       InSource region -> let Position {file} = Region.position source (start region) in file
@@ -68,9 +71,7 @@ json path source r =
       InSource region -> "start" .= position (start region) <> "end" .= position (end region)
       InTape row -> "row" .= row
       InFile -> mempty
-    position offset =
-      let Position {line, column} = Region.position source offset
-       in object ["line" .= line, "column" .= column]
+    position = jsonPosition source
     related (Label region words') =
       let Position {file} = Region.position source (start region)
        in object
@@ -79,3 +80,18 @@ json path source r =
               "end" .= position (end region),
               "label" .= words'
             ]
+
+jsonPosition :: Source -> Int -> Value
+jsonPosition source offset =
+  let Position {line, column} = Region.position source offset
+   in object ["line" .= line, "column" .= column]
+
+jsonFix :: Source -> Fix -> Value
+jsonFix source f = object ["title" .= Fix.title f, "edits" .= map edited (Fix.edits f)]
+  where
+    edited e =
+      object
+        [ "start" .= jsonPosition source (start (Fix.replaced e)),
+          "end" .= jsonPosition source (end (Fix.replaced e)),
+          "text" .= Fix.newText e
+        ]

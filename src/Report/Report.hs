@@ -10,6 +10,7 @@ module Report.Report
     ReportPlace (..),
     Label (..),
     report,
+    remedies,
     quote,
     severityWord,
     isError,
@@ -23,6 +24,8 @@ import Data.List.NonEmpty qualified as NonEmpty
 import Data.String (IsString)
 import Data.Text (Text)
 import Data.Text qualified as Text
+import Report.Fix (Fix)
+import Report.Fix qualified as Fix
 
 -- | Severity of a report. After an error the compiler makes no tape; after a warning it does.
 data Severity = Error | Warning
@@ -61,16 +64,33 @@ data Report = Report
     others :: [Label],
     -- | the reason, as whole sentences
     message :: [Text],
-    -- | remedies; lazy, because some need a slow comparison with similar names, which is left out
-    -- for a report that is not shown
-    hints :: ~[Text]
+    -- | remedies in words; lazy, because some need a slow comparison with similar names, which is
+    -- left out for a report that is not shown
+    hints :: ~[Text],
+    -- | Changes of the program that mend the mistake, the most likely one first. Their titles are
+    -- remedies too.
+    fixes :: ~[Fix]
   }
   deriving stock (Eq, Show)
 
 -- | Makes a report with a title and a place; all other fields are empty.
 report :: Severity -> ReportCode -> ReportPlace -> Text -> Report
 report severity code place title =
-  Report {severity, code, title, place, label = "", others = [], message = [], hints = []}
+  Report
+    { severity,
+      code,
+      title,
+      place,
+      label = "",
+      others = [],
+      message = [],
+      hints = [],
+      fixes = []
+    }
+
+-- | Remedies as sentences: the titles of the fixes, and the hints.
+remedies :: Report -> [Text]
+remedies r = map Fix.title (fixes r) <> hints r
 
 -- | Puts a word of the program in quotation marks. If it has more than 60 characters, only the
 -- first 57 are shown.

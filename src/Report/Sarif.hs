@@ -26,6 +26,8 @@ import Data.Text qualified as Text
 import Data.Text.Encoding qualified as Encoding
 import Report.Explanation (Explanation)
 import Report.Explanation qualified as Explanation
+import Report.Fix (Fix)
+import Report.Fix qualified as Fix
 import Report.Report (Label (..), Report (..), ReportCode (..), ReportPlace (..))
 import Report.Report qualified as Report
 import Prelude hiding (log)
@@ -75,9 +77,10 @@ result indices Filed {path, source, report = r} =
       <> pair "message" (message' sentences)
       <> pair "locations" (list pairs located)
       <> (if null (others r) then mempty else pair "relatedLocations" (list related places))
+      <> (if null own then mempty else pair "fixes" (list (pairs . fixed source) own))
   where
     ReportCode code = Report.code r
-    sentences = Text.intercalate "\n" (title r : message r <> map ("hint: " <>) (hints r))
+    sentences = Text.intercalate "\n" (title r : message r <> map ("hint: " <>) (Report.remedies r))
     located = case place r of
       InSource region ->
         [ inSource source region
@@ -90,6 +93,7 @@ result indices Filed {path, source, report = r} =
             (pair "region" (pairs ("byteOffset" .= max 0 (row - 1) <> "byteLength" .= (1 :: Int))))
         ]
       InFile -> [at path mempty | path /= ""]
+    own = filter (Fix.isWithin source) (fixes r)
     -- The related locations of a result must differ from one another (3.27.22).
     places = nub (others r)
     related (Label region words') =
@@ -98,18 +102,35 @@ result indices Filed {path, source, report = r} =
             <> (if words' == "" then mempty else pair "message" (message' words'))
         )
 
+-- | Encodes a fix. All its edits change the file of the program (3.55).
+fixed :: Source -> Fix -> Series
+fixed source f =
+  pair "description" (message' (Fix.title f)) <> pair "artifactChanges" (list pairs [change])
+  where
+    change =
+      pair "artifactLocation" (pairs ("uri" .= uri (Region.mainFile source)))
+        <> pair "replacements" (list (pairs . replacement) (Fix.edits f))
+    replacement e =
+      pair "deletedRegion" (pairs (stretchOf source (Fix.replaced e)))
+        <> pair "insertedContent" (pairs ("text" .= Fix.newText e))
+
 -- | Location of a region: its file, and its lines and columns. Columns count characters from 1; the
 -- end is the position after the last character (3.30.8).
 inSource :: Source -> Region -> Series
-inSource source region = at file (pair "region" (pairs stretch))
+inSource source region = at file (pair "region" (pairs (stretchOf source region)))
   where
-    Position {file, line, column} = Region.position source (start region)
+    Position {file} = Region.position source (start region)
+
+-- | Lines and columns of a region.
+stretchOf :: Source -> Region -> Series
+stretchOf source region =
+  "startLine" .= line
+    <> "startColumn" .= column
+    <> "endLine" .= endLine
+    <> "endColumn" .= endColumn
+  where
+    Position {line, column} = Region.position source (start region)
     Position {line = endLine, column = endColumn} = Region.position source (end region)
-    stretch =
-      "startLine" .= line
-        <> "startColumn" .= column
-        <> "endLine" .= endLine
-        <> "endColumn" .= endColumn
 
 -- | Physical location in the file @path@. @region@ is the field for a region in this file; it is
 -- 'mempty' for the file as a whole.

@@ -11,10 +11,12 @@ where
 
 import Base.Decimal qualified as Decimal
 import Base.Name qualified as Name
-import Base.Region (Region)
+import Base.Region (Region (..))
 import Data.Char (isLetter)
 import Data.Text (Text)
 import Data.Text qualified as Text
+import Report.Fix (Fix)
+import Report.Fix qualified as Fix
 import Report.Report
   ( Label (..),
     Report (..),
@@ -111,7 +113,8 @@ toReport err = case err of
         "E0102"
         ("the character " <> quote (Text.singleton c) <> " has no place in a program")
     )
-      { hints = strayHint c
+      { fixes = strayFixes region c,
+        hints = strayHint c
       }
   Unexpected region (FoundToken OpenText) _ _ ->
     (at region "E0103" "a text without its closing quotation mark")
@@ -124,32 +127,40 @@ toReport err = case err of
   Unexpected region found expected neighbours ->
     (at region "E0101" ("found " <> shown found <> expectation expected))
       { label = "here",
+        fixes = case found of
+          FoundToken token
+            | isWord expected -> meant region token expected
+            | otherwise -> meant region token expected <> tokenFixes region token neighbours
+          FoundEnd -> [],
         hints = case found of
           FoundToken (Symbol "=")
             | quote "closed" `elem` expected ->
               ["A contour has no such sign: contour name closed { … }"]
           FoundToken token
-            | not (isWord expected) ->
-              meant token expected <> advice token neighbours
-          FoundToken token -> meant token expected
+            | not (isWord expected) -> advice token neighbours
+          FoundToken _ -> []
           FoundEnd -> []
       }
   Unclosed region opened what ->
     (at region "E0105" (enclosureWords what <> " is not closed"))
       { label = "the closing bracket was expected before this",
-        others = [Label opened "opened here"]
+        others = [Label opened "opened here"],
+        fixes = case what of
+          BracketOf _ -> []
+          _ -> [Fix.insertion "Write } before this." (start region) "}\n"]
       }
   UnknownStatement region word known ->
     (at region "E0106" (quote word <> " begins no statement"))
       { message = ["A statement begins with one of: " <> Text.intercalate ", " known <> "."],
+        fixes =
+          if word `elem` declaring
+            then [Fix.exchange ("Write let instead of " <> quote word <> ".") region "let"]
+            else nearby region word known,
         hints = case (Name.lookAlike word known, Name.nearest word known) of
-          (w : _, _) ->
-            [ "It looks like "
-                <> quote w
-                <> ", but has a letter of the other alphabet, Cyrillic or Latin."
-            ]
-          ([], w : _) -> ["Did you mean " <> quote w <> "?"]
-          ([], []) -> ["To give a name to a value, write: let " <> word <> " = …"]
+          (_ : _, _) -> ["One of them has a letter of the other alphabet, Cyrillic or Latin."]
+          ([], _ : _) -> []
+          ([], []) ->
+            ["To give a name to a value, write: let " <> word <> " = …" | word `notElem` declaring]
       }
   Reserved region word ->
     (at region "E0107" (quote word <> " is a word of the language and cannot be a name"))
@@ -161,6 +172,7 @@ toReport err = case err of
   Trailing region token neighbours ->
     (at region "E0108" ("the statement ends before " <> describe token))
       { message = ["Every statement begins on a line of its own."],
+        fixes = tokenFixes region token neighbours,
         hints = advice token neighbours
       }
   NotInRow region token _
@@ -309,17 +321,38 @@ enclosureWords enclosure = case enclosure of
   RepetitionBlock -> "the repetition"
   BlockOf keyword -> "the block of " <> quote keyword
 
--- | Suggests an expected keyword that resembles the token @token@; @expected@ has the descriptions
--- of the expected tokens.
-meant :: Token_ -> [Text] -> [Text]
-meant token expected = case token of
-  Word word ->
-    [ "Did you mean " <> quote w <> "?"
-      | w <- take 1 (Name.lookAlike word words' <> Name.nearest word words')
-    ]
+-- | Fixes that put an expected keyword in place of the token @token@, which resembles it;
+-- @expected@ has the descriptions of the expected tokens.
+meant :: Region -> Token_ -> [Text] -> [Fix]
+meant region token expected = case token of
+  Word word -> nearby region word words'
   _ -> []
   where
     words' = map (Text.dropAround (`elem` ("‘’" :: String))) expected
+
+-- | Words with which a value gets its name in other languages.
+declaring :: [Text]
+declaring =
+  Text.words "var const def val auto int float double real number length angle point line circle"
+
+-- | Fix that puts a similar word in place of a word; none if no known word is similar.
+nearby :: Region -> Text -> [Text] -> [Fix]
+nearby region word known =
+  [ Fix.exchange ("Write " <> quote w <> " instead of " <> quote word <> ".") region w
+    | w <- take 1 (Name.lookAlike word known <> Name.nearest word known)
+  ]
+
+-- | Fixes for a misplaced token, judged by the tokens on both sides of it.
+tokenFixes :: Region -> Token_ -> Neighbours -> [Fix]
+tokenFixes region token neighbours = case (token, neighbours) of
+  (Symbol ",", (Just (Number _ Nothing), Just (Number _ _))) ->
+    [Fix.exchange "Write a decimal point." region "."]
+  (Symbol ",", (Just (Symbol ")"), _)) -> [Fix.removal "Remove the comma." region]
+  (Symbol "+", _) -> [Fix.removal "Remove the sign +." region]
+  (Symbol "=", (Just (Symbol "="), _)) -> [Fix.removal "Write one sign: a = b." region]
+  (Symbol "/", (Just (Symbol "/"), _)) ->
+    [Fix.exchange "Begin the comment with --." (Region (start region - 1) (end region)) "--"]
+  _ -> []
 
 -- | Suggests what the author meant by a misplaced token, judged by the tokens on both sides of it.
 advice :: Token_ -> Neighbours -> [Text]
@@ -334,9 +367,8 @@ advice token neighbours = case (token, neighbours) of
     ["The parenthesis of a call, or of a function's parameters, touches the name: f(3)."]
   (Symbol "(", _) -> ["Is a comma missing before it?"]
   (Symbol "+", _) -> ["A positive number needs no sign."]
-  (Symbol "/", (Just (Symbol "/"), _)) -> ["A comment begins with --."]
   (Symbol "*", (Just (Symbol "*"), _)) -> ["There are no powers: write x * x."]
-  (Symbol "=", (Just (Symbol "="), _)) -> ["Equality is one sign: a = b."]
+  (Symbol "=", (Just (Symbol "="), _)) -> []
   (Symbol "=", _) -> ["To give a name to a value, write: let name = value"]
   (Word word, (Just (Number _ _), _))
     | word `notElem` Keyword.reservedWords ->
@@ -417,19 +449,27 @@ expectation expected = case expected of
   [one] -> ", expected " <> one
   many' -> ", expected " <> Text.intercalate ", " (init many') <> " or " <> last many'
 
+-- | Fixes for a character that has no place in a program.
+strayFixes :: Region -> Char -> [Fix]
+strayFixes region c
+  | c `elem` ("−–—" :: String) = [put "Write the minus sign as -." "-"]
+  | c `elem` ("×·" :: String) = [put "Write the product with *." "*"]
+  | c == ':' = [Fix.removal "Remove the colon." region]
+  | c == '#' = [put "Begin the comment with --." "--"]
+  | c == ';' = [put "Begin a new line instead." "\n"]
+  | c == '°' = [put "Write degrees as deg." " deg"]
+  | otherwise = []
+  where
+    put title = Fix.exchange title region
+
 strayHint :: Char -> [Text]
 strayHint c
-  | c `elem` ("−–—" :: String) = ["Write the minus sign as -."]
   | c `elem` ("“”„«»'" :: String) = ["A text stands between \" and \"."]
-  | c `elem` ("×·" :: String) = ["Write the product with *."]
   | c == '^' = ["There are no powers: write x * x, and sqrt(x) for a root."]
   | c == '±' = ["A tolerance is a statement of its own: tolerance 0.02 mm"]
   | c == '&' = ["Write: and"]
   | c == '|' = ["Write: or"]
   | c == '!' = ["Write: not"]
-  | c == ':' = ["No colon is needed."]
-  | c == '#' = ["A comment begins with --."]
-  | c == ';' = ["Statements need no separator; a comment begins with --."]
+  | c == ';' = ["If it begins a comment: comments begin with --."]
   | c == '.' = ["Write a number with digits on both sides of its point: 0.5, 5.0 or 5."]
-  | c == '°' = ["Write degrees as deg: 45 deg."]
   | otherwise = []

@@ -12,13 +12,15 @@ spec :: Spec
 spec = do
   it
     "suggests names within one edit for every three letters, nearest first (catches names that are \
-    \discarded too early)"
+    \discarded too early, or an exchange of neighbours)"
     $ property . forAll word $ \wanted -> forAll (listOf (oneof [word, edited wanted])) $ \known ->
       let found = Name.nearest wanted known
           allowed = Text.length wanted `div` 3
        in cover 50 (not (null found)) "some" $
             sort found === sort [k | k <- known, edits wanted k <= allowed]
               .&&. map (edits wanted) found === sort (map (edits wanted) found)
+  it "counts an exchange of neighbours as one edit" $
+    Name.nearest "depht" ["depth", "deep"] `shouldBe` ["depth"]
   it "ignores capital letters" $
     Name.nearest "Bolts" ["bolt", "BOLTS", "nuts"] `shouldBe` ["BOLTS", "bolt"]
   it "finds names that look the same in another alphabet, and no others" $
@@ -41,11 +43,16 @@ edited w = choose (0, 3 :: Int) >>= go w
         gone <- choose (0, 1)
         go (Text.take k t <> c <> Text.drop (k + gone) t) (n - 1)
 
--- | The Levenshtein distance by its definition.
+-- | The edit distance by its definition: letters are inserted, deleted or replaced, and neighbours
+-- exchanged.
 edits :: Text -> Text -> Int
 edits a b = case (Text.uncons a, Text.uncons b) of
   (Nothing, _) -> Text.length b
   (_, Nothing) -> Text.length a
   (Just (c, a'), Just (d, b'))
     | c == d -> edits a' b'
-    | otherwise -> 1 + minimum [edits a' b, edits a b', edits a' b']
+    | otherwise -> 1 + minimum ([edits a' b, edits a b', edits a' b'] <> exchanged c a' d b')
+  where
+    exchanged c a' d b' = case (Text.uncons a', Text.uncons b') of
+      (Just (c', a''), Just (d', b'')) | c == d', c' == d -> [edits a'' b'']
+      _ -> []

@@ -5,6 +5,7 @@ import Base.Region qualified as Region
 import Base.Result qualified as Result
 import Control.Monad (forM_)
 import Data.Aeson (Value (..), object, (.=))
+import Data.Aeson.Key qualified as Key
 import Data.Either (lefts)
 import Data.List (sort)
 import Data.Text (Text)
@@ -175,6 +176,32 @@ spec = do
                            )
                        )
                    ]
+    it "have their fixes as code actions, if the client knows such actions" $ do
+      let misspelt = header <> "let depth = 1\nlet b = deptth\n"
+          client = object ["codeAction" .= object ["codeActionLiteralSupport" .= object []]]
+          request =
+            object
+              [ "textDocument" .= object ["uri" .= addressOf],
+                "range" .= object ["start" .= at (7, 9), "end" .= at (7, 9)],
+                "context" .= object ["diagnostics" .= ([] :: [Value])]
+              ]
+          answer capabilities =
+            ask
+              "textDocument/codeAction"
+              request
+              (pause 0 (open addressOf 1 misspelt (running capabilities)))
+          wanted =
+            object
+              [ "range" .= object ["start" .= at (7, 8), "end" .= at (7, 14)],
+                "newText" .= ("depth" :: Text)
+              ]
+      fmap (map (\a -> (field "title" a, field "edit" a)) . items) (answer client)
+        `shouldBe` Right
+          [ ( String "Write ‘depth’",
+              object ["changes" .= object [Key.fromText addressOf .= [wanted]]]
+            )
+          ]
+      fmap items (answer (object [])) `shouldBe` Right []
     it "of a text with a byte order mark count this mark as a character" $
       map from (squiggles ("\xFEFFpart p junk\n" <> Text.drop 7 header)) `shouldBe` [(0, 8)]
     prop "are shifted by the UTF-16 length of a text that is inserted before them in the line"
@@ -222,6 +249,11 @@ spec = do
             | method <- ["textDocument/documentSymbol", "textDocument/formatting"]
           ]
           `shouldBe` []
+
+items :: Value -> [Value]
+items v = case v of
+  Array vs -> foldMap pure vs
+  _ -> []
 
 ready :: Talk
 ready = running (object [])

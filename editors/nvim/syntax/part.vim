@@ -12,7 +12,7 @@ syntax match partNumber /\<\d\+\(\.\d\+\)\?/
 syntax keyword partStatement part machine import tool feed tolerance clearance from let param table curve piece contour assert
 syntax keyword partStatement mill turn drill rapid move change spindle coolant aux with
 " A name as well, but for where a statement begins.
-syntax match partStatement /^\s*\zspocket\ze\s\+\k/
+syntax match partStatement /^\s*\zs\<pocket\ze\s\+\k/
 syntax keyword partRepeat for in if then else and or not
 syntax keyword partWalk cw ccw open closed
 syntax keyword partLink meet near smooth tangent fillet chamfer slow bevel
@@ -20,6 +20,7 @@ syntax keyword partPiece cipher joggle within first last
 syntax keyword partMilling outside inside left right on approach retract allowance
 " Words that may be names as well, where they begin a setting.
 syntax match partMilling /^\s*\zs\(depth\|lead\|corners\|climb\|conventional\|compensation\|start\|plunge\|peck\|islands\|rest\)\>/
+syntax match partMilling /\(\<lead\s\+\)\@<=out\>/
 syntax keyword partCutter cone blade diameter
 syntax keyword partFunction pi line true false polar intersection centre_of midpoint foot_of tangency point_on horizontal vertical
 syntax keyword partFunction parallel perpendicular circle concentric distance direction_of radius_of length_of x_of y_of spline

@@ -1,0 +1,60 @@
+; The colours of part programs, for tree-sitter's own highlighter, Neovim, Helix and Zed.
+; No node is coloured by two patterns, because the editors differ in which of the two wins.
+
+(comment) @comment
+(text) @string
+(number) @constant.numeric
+(unit) @type
+(constant) @constant.builtin
+(machine_name) @constant
+
+; The words that begin statements
+[
+  "part" "machine" "import" "tool" "feed" "tolerance" "clearance" "from"
+  "let" "param" "table" "curve" "piece" "contour" "assert"
+  "mill" "turn" "pocket" "drill" "rapid" "move" "change" "spindle" "coolant" "aux" "with"
+] @keyword
+
+; Repetition and choice
+[ "for" "in" "by" ] @keyword.repeat
+[ "if" "then" "else" ] @keyword.conditional
+[ "and" "or" "not" ] @keyword.operator
+
+; Contours and pieces
+[
+  "open" "closed" "cw" "ccw"
+  "meet" "near" "smooth" "tangent" "fillet" "chamfer" "slow" "bevel"
+  "cipher" "joggle" "to" "radius"
+  "left" "right" "inside" "outside" "within" "first" "last"
+] @keyword
+
+; Machining
+[
+  "on" "off" "at" "step"
+  "approach" "retract" "depth" "lead" "out" "line" "arc" "allowance" "corners" "round" "sharp"
+  "compensation" "compiler" "controller" "start" "plunge" "peck" "islands" "rest" "allowed"
+  "diameter" "nose" "cone" "blade" "height" "gear"
+] @keyword
+(climb) @keyword
+(conventional) @keyword
+
+; Definitions
+(part name: (name) @module)
+(let name: (name) @function parameters: (parameters))
+(let name: (name) @variable !parameters)
+(parameters (name) @variable.parameter)
+(param name: (name) @variable)
+(table name: (name) @variable)
+(curve name: (name) @variable)
+(piece name: (name) @variable)
+(contour name: (name) @variable)
+(for name: (name) @variable)
+(comprehension name: (name) @variable)
+(heading name: (name) @property)
+
+(call function: (name) @function)
+
+; Signs
+[ "=" "!=" "<" "<=" ">" ">=" "+" "-" "*" "/" ".." ] @operator
+[ "(" ")" "[" "]" "{" "}" ] @punctuation.bracket
+"," @punctuation.delimiter
