@@ -35,10 +35,14 @@ PACKED := build/packages
 
 PARTC = $$($(STACK) path --local-install-root 2>/dev/null)/bin/partc
 
+# npm in the folder of the extension for VS Code. No package needs to run a script of its own when it is installed.
+NPM := npm --prefix editors/vscode
+NPM_CI := $(NPM) ci --ignore-scripts --no-audit --no-fund
+
 banner = @printf '== %s\n' '$(1)'
 quietly = @bash scripts/quietly.sh
 
-.PHONY: mutants pictures tree-sitter-test editors-test help setup build test check format format-check lint commits bench demo install deb dist deb-try clean
+.PHONY: mutants pictures tree-sitter-test editors-test vsix vscode-test help setup build test check format format-check lint commits bench demo install deb dist deb-try clean
 
 help: ## this list
 	@printf 'make demo|test|...\n\n'
@@ -144,5 +148,23 @@ deb-try: build needs-package needs-try ## install the package and the archive in
 	  printf '%s\n' "$$deb" "$$archive" && \
 	  bash scripts/package-try.sh "$(PARTC)" "$$deb" "$$archive"
 
+vsix: needs-vscode ## pack the extension for VS Code: build/partc-VERSION.vsix
+	$(call banner,libraries from npm)
+	$(quietly) $(NPM_CI)
+	@mkdir -p build
+	$(call banner,compile and pack)
+	$(quietly) $(NPM) run package -- --out "$(CURDIR)/build/"
+	@printf 'extension: build/partc-%s.vsix\n' "$$(node -p 'require("./editors/vscode/package.json").version')"
+
+# With PARTC=FILE, this built program is tested, and none is built.
+vscode-test: needs-vscode $(if $(filter command,$(origin PARTC)),,build) ## test the extension for VS Code with node, without VS Code
+	$(call banner,libraries from npm)
+	$(quietly) $(NPM_CI)
+	$(call banner,compile)
+	$(quietly) $(NPM) run compile
+	$(call banner,test)
+	@PARTC="$(PARTC)" $(NPM) --silent test
+
 clean: ## remove everything that was built
 	@rm -rf .stack-work .stack-work-check .stack-work-bench .stack-work-quick build partc.cabal
+	@rm -rf editors/vscode/node_modules editors/vscode/out

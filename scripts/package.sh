@@ -40,7 +40,7 @@ fill() {
   )
   for file in "$root"/machines/*.machine; do put "$file" "$usr/share/partc/machines/${file##*/}"; done
   for file in "$root"/explain/*.md; do put "$file" "$usr/share/partc/explain/${file##*/}"; done
-  (cd "$root" && find editors -type f ! -path '*/node_modules/*' ! -path '*/target/*') | while IFS= read -r file; do put "$root/$file" "$usr/share/partc/$file"; done
+  (cd "$root" && find editors -type f ! -path 'editors/vscode/*' ! -path '*/node_modules/*' ! -path '*/target/*') | while IFS= read -r file; do put "$root/$file" "$usr/share/partc/$file"; done
   (cd "$root" && find examples -type f ! -path 'examples/expected/*') | while IFS= read -r file; do
     put "$root/$file" "$usr/share/doc/partc/$file"
   done

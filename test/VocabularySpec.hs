@@ -47,7 +47,11 @@ spec = do
 -- | The files of editors that list the functions of the language as well as its other words.
 withFunctions :: [FilePath]
 withFunctions =
-  ["editors/nvim/syntax/part.vim", "editors/emacs/part-mode.el", "editors/kakoune/part.kak"]
+  [ "editors/nvim/syntax/part.vim",
+    "editors/emacs/part-mode.el",
+    "editors/kakoune/part.kak",
+    "editors/vscode/syntaxes/part.tmLanguage.json"
+  ]
 
 -- | Fails if words are missing in a file, and names them.
 hasAll :: FilePath -> [Text] -> Expectation
