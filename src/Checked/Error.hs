@@ -481,7 +481,10 @@ mismatchHint expected found
 
 -- | Fixes that give an expression the type that is needed.
 mismatchFixes :: Region -> Type -> Type -> [Fix]
-mismatchFixes region expected found
+mismatchFixes region expected found = map Fix.proposed (wrapped region expected found)
+
+wrapped :: Region -> Type -> Type -> [Fix]
+wrapped region expected found
   | expected == Type.angle && found == Type.number =
     [ Fix.enclosure "Multiply the number by 1 deg, if it is in degrees." "(" region ") * 1 deg",
       Fix.enclosure "Multiply the number by 1 rad, if it is in radians." "(" region ") * 1 rad"

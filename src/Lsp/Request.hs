@@ -131,7 +131,7 @@ codeActions client subject = withObject "parameters" $ \o -> do
           "kind" .= ("quickfix" :: Text),
           "diagnostics"
             .= [Diagnostic.diagnostic client (uri (document subject)) (now subject) r],
-          "isPreferred" .= (length (fixes r) == 1),
+          "isPreferred" .= (map Fix.isProposal (fixes r) == [False]),
           "edit" .= object ["changes" .= object [Key.fromText address .= map edit (Fix.edits f)]]
         ]
     Uri address = uri (document subject)

@@ -12,7 +12,7 @@ where
 import Base.Decimal qualified as Decimal
 import Base.Name (Name (..))
 import Base.Quantity (Mm, Rad, degrees)
-import Base.Region (Located (..), Region)
+import Base.Region (Located (..), Region (end))
 import Data.List (nub)
 import Data.Text (Text)
 import Data.Text qualified as Text
@@ -23,6 +23,7 @@ import Geometry.Vec (Point)
 import Geometry.Vec qualified as Vec
 import Part.ErrorText (andMore, at, describe, downTo, stop)
 import Part.Tolerance qualified as Tolerance
+import Report.Fix qualified as Fix
 import Report.Report (Label (..), Report (..), ReportCode, quote)
 
 -- | A fault of a contour. The first field is the region that the report points at, unless the
@@ -113,7 +114,7 @@ toReport fault = case fault of
     at region "E0328" "the contour has no length"
   LinkOfLoneCircle region ->
     (at region "E0329" "a circle or a closed curve alone needs no link")
-      { hints = ["It closes by itself: leave the link out."]
+      { fixes = [Fix.removal "Leave the link out: it closes by itself." region]
       }
   NoEnd region carrier ->
     (at region "E0309" ("an open contour cannot begin or end on " <> describe carrier))
@@ -123,7 +124,8 @@ toReport fault = case fault of
   LinkAtEnd region contour ->
     (at region "E0310" "nothing follows this link")
       { others = [Label contour "the contour is open"],
-        hints = ["Leave the link out, or make the contour closed."]
+        fixes = [Fix.proposed (Fix.removal "Leave the link out." region)],
+        hints = ["Or make the contour closed."]
       }
   ClosedElement region (Name name) ->
     ( at
@@ -211,7 +213,7 @@ linkReport j fault = case fault of
   AmbiguousMeeting points ->
     (titled "E0314" (both j <> " meet in more than one point"))
       { message = [meetingPoints points],
-        hints = ["Choose with: meet near " <> Vec.toText 4 p | p <- take 1 points]
+        fixes = map nearFix (take mostPoints points)
       }
   NotSmooth gap ->
     (titled "E0315" (both j <> " do not touch: they miss it by " <> Decimal.mm gap))
@@ -276,7 +278,16 @@ linkReport j fault = case fault of
         )
     )
       { message = [stop "17535"],
-        hints = filletHints j r largest
+        fixes =
+          [ Fix.proposed
+              ( Fix.exchange
+                  ("Write the largest radius that fits here: " <> downTo m <> ".")
+                  (link j)
+                  ("fillet " <> downTo m)
+              )
+            | Just m <- [largest]
+          ],
+        hints = filletHints j r
       }
   AmbiguousFillet centres ->
     (titled "E0323" "two fillets make contours of the same length")
@@ -290,6 +301,15 @@ linkReport j fault = case fault of
       }
   where
     titled = linkTitle j
+    -- A link without a text has the region of the element behind it.
+    (Located ahead _, Located behind _) = (before j, after j)
+    nearFix p =
+      let words' = "meet near " <> Vec.toText 4 p
+          title' = "Write " <> words' <> "."
+       in Fix.proposed $
+            if link j == behind
+              then Fix.insertion title' (end ahead) (" " <> words')
+              else Fix.exchange title' (link j) words'
     curved = any isCurve [before j, after j]
 
 -- | An error that points at a link and labels its two neighbours.
@@ -338,14 +358,12 @@ tangentHint senses = case senses of
       Clockwise -> "cw"
       CounterClockwise -> "ccw"
 
--- | The hints for a fillet of radius @r@ that does not fit. @largest@ is the largest radius that
--- fits, if any radius fits.
-filletHints :: Neighbours -> Mm -> Maybe Mm -> [Text]
-filletHints j r largest =
-  ["The largest radius that fits here is " <> downTo m <> "." | Just m <- [largest]]
-    <> [ "With the other sign there is one: fillet " <> signed <> "."
-         | Just signed <- [otherSign j r]
-       ]
+-- | The hints for a fillet of radius @r@ that does not fit.
+filletHints :: Neighbours -> Mm -> [Text]
+filletHints j r =
+  [ "With the other sign there is one: fillet " <> signed <> "."
+    | Just signed <- [otherSign j r]
+  ]
     <> [ "+R is traversed clockwise, −R counter-clockwise; check the sign, the radius, and the \
          \senses of the neighbours."
        ]

@@ -1,7 +1,7 @@
 -- | Mends a program by the fixes of its reports.
 --
--- A report with one fix says what the user meant. A report with several fixes leaves a choice, and
--- is left alone. A change is kept only if the passes up to the one that made the report find no
+-- A report with one fix says what the user meant. A report with several fixes, or with a proposal,
+-- leaves a choice, and is left alone. A change is kept only if the passes up to the one that made the report find no
 -- more mistakes than before. Later passes may find more, because an earlier mistake hides theirs.
 module Project.FixRun
   ( AppliedFix (..),
@@ -84,7 +84,13 @@ choices mended = case apart single of
   [one] -> [[one]]
   together -> together : map pure single
   where
-    single = [(r, f) | r <- left mended, [f] <- [fixes r], Fix.isWithin (source mended) f]
+    single =
+      [ (r, f)
+        | r <- left mended,
+          [f] <- [fixes r],
+          not (isProposal f),
+          Fix.isWithin (source mended) f
+      ]
 
 -- | Fixes of a list that overlap none before them.
 apart :: [(Report, Fix)] -> [(Report, Fix)]

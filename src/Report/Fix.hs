@@ -6,6 +6,7 @@ module Report.Fix
     insertion,
     removal,
     enclosure,
+    proposed,
     isWithin,
     applied,
   )
@@ -21,6 +22,8 @@ import Data.Text qualified as Text
 data Fix = Fix
   { -- | what the change does: a sentence that begins with a verb
     title :: Text,
+    -- | true if the fix changes what the program means, so that the user has to decide
+    isProposal :: Bool,
     -- | edits that do not overlap
     edits :: [FixEdit]
   }
@@ -33,7 +36,7 @@ data FixEdit = FixEdit {replaced :: Region, newText :: Text}
 
 -- | Fix that writes another text in a region.
 exchange :: Text -> Region -> Text -> Fix
-exchange title region new = Fix {title, edits = [FixEdit region new]}
+exchange title region new = Fix {title, isProposal = False, edits = [FixEdit region new]}
 
 -- | Fix that writes a text at an offset.
 insertion :: Text -> Int -> Text -> Fix
@@ -41,18 +44,23 @@ insertion title offset = exchange title (Region offset offset)
 
 -- | Fix that removes the text of a region.
 removal :: Text -> Region -> Fix
-removal title region = Fix {title, edits = [FixEdit region ""]}
+removal title region = Fix {title, isProposal = False, edits = [FixEdit region ""]}
 
 -- | Fix that writes one text before and one after a region.
 enclosure :: Text -> Text -> Region -> Text -> Fix
 enclosure title before region after =
   Fix
     { title,
+      isProposal = False,
       edits =
         [ FixEdit (Region (start region) (start region)) before,
           FixEdit (Region (end region) (end region)) after
         ]
     }
+
+-- | The fix as a proposal.
+proposed :: Fix -> Fix
+proposed f = f {isProposal = True}
 
 -- | True if a fix changes only the text of the program itself, not of its imports.
 isWithin :: Source -> Fix -> Bool

@@ -147,7 +147,7 @@ toReport err = case err of
         others = [Label opened "opened here"],
         fixes = case what of
           BracketOf _ -> []
-          _ -> [Fix.insertion "Write } before this." (start region) "}\n"]
+          _ -> [Fix.proposed (Fix.insertion "Write } before this." (start region) "}\n")]
       }
   UnknownStatement region word known ->
     (at region "E0106" (quote word <> " begins no statement"))
