@@ -248,9 +248,8 @@ toReport err = case err of
       }
   SenseUnneeded region t ->
     (at region "E0212" ("cw and ccw stand before a circle, but this is " <> Type.describe t))
-      { hints =
-          ["Leave the word out. " <> w | Just w <- [traversalHint t]]
-            <> ["Leave the word out." | Nothing <- [traversalHint t]]
+      { fixes = [Fix.removal "Leave the word out." region],
+        hints = maybe [] pure (traversalHint t)
       }
   NotAnElement region t ->
     (at region "E0213" (Type.describe t <> " cannot be an element of a contour"))
@@ -266,12 +265,20 @@ toReport err = case err of
       }
   NoPart region ->
     (at region "E0215" "the program does not begin with ‘part’")
-      { hints = ["Begin with the name of the part, for example: part flange \"Flange, drawing 2\""]
+      { fixes =
+          [ Fix.proposed
+              ( Fix.insertion
+                  "Begin with the name of the part: part unnamed"
+                  (start region)
+                  "part unnamed\n"
+              )
+          ]
       }
   SettingTwice region setting before ->
     (at region "E0216" (settingWord setting <> " is set twice"))
       { label = "set again here",
-        others = [Label before "first set here"]
+        others = [Label before "first set here"],
+        fixes = [Fix.proposed (Fix.removal "Leave the second one out." region)]
       }
   SettingsMissing region missing ->
     ( at
@@ -308,6 +315,7 @@ toReport err = case err of
   ForeignSetting region setting statement known ->
     (at region "E0221" (quote statement <> " has no setting " <> quote setting))
       { message = ["It has: " <> Text.intercalate ", " known <> "."],
+        fixes = [Fix.proposed (Fix.removal "Leave it out." region)],
         hints =
           [ "The depth of the holes stands before the braces: drill at P depth 10"
             | setting == "depth",

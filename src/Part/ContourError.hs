@@ -93,7 +93,7 @@ data LinkFault
     FilletAtPoint
   | -- | no arc of the given radius touches both neighbours: this radius, and the largest one that
     -- fits. The latter is 'Nothing' if no smaller radius fits
-    NoFillet Mm (Maybe Mm)
+    NoFillet Sense Mm (Maybe Mm)
   | -- | two fillet arcs make equally long contours: the centres of both arcs
     AmbiguousFillet [Point]
   deriving stock (Eq, Show)
@@ -269,7 +269,7 @@ linkReport j fault = case fault of
     )
       { hints = ["Write the edges as lines: line(p, q)."]
       }
-  NoFillet r largest ->
+  NoFillet sense r largest ->
     ( titled
         "E0322"
         ( "no arc of radius "
@@ -283,7 +283,7 @@ linkReport j fault = case fault of
               ( Fix.exchange
                   ("Write the largest radius that fits here: " <> downTo m <> ".")
                   (link j)
-                  ("fillet " <> downTo m)
+                  ("fillet " <> (if sense == Clockwise then "" else "-") <> downTo m)
               )
             | Just m <- [largest]
           ],

@@ -280,7 +280,7 @@ fillet j sense r = case shapes j of
   (AtPoint _, _) -> Left (NotLinked j FilletAtPoint)
   (_, AtPoint _) -> Left (NotLinked j FilletAtPoint)
   (a, b) -> case sortOn arcLength (map joint (Fillet.between r sense a b)) of
-    [] -> Left (NotLinked j (NoFillet r Nothing))
+    [] -> Left (NotLinked j (NoFillet sense r Nothing))
     first : rest -> Right (first :| rest)
   where
     joint f =

@@ -98,8 +98,8 @@ unlinked ends linked = case linked of
 -- | If the fault may be caused by a fillet that is too large, adds the largest radius that fits.
 withLargest :: Region -> Ends -> NonEmpty LinkedElement -> ContourFault -> ContourFault
 withLargest region ends linked fault = case fault of
-  NotLinked j (NoFillet r _) ->
-    NotLinked j (NoFillet r (largestFillet region ends linked [ContourError.link j]))
+  NotLinked j (NoFillet sense r _) ->
+    NotLinked j (NoFillet sense r (largestFillet region ends linked [ContourError.link j]))
   Overrun at shape overlap links _ ->
     Overrun at shape overlap links (largestFillet region ends linked links)
   _ -> fault

@@ -1,8 +1,9 @@
 -- | Mends a program by the fixes of its reports.
 --
 -- A report with one fix says what the user meant. A report with several fixes, or with a proposal,
--- leaves a choice, and is left alone. A change is kept only if the passes up to the one that made the report find no
--- more mistakes than before. Later passes may find more, because an earlier mistake hides theirs.
+-- leaves a choice, and is left alone. A change is kept only if the passes up to the one that made
+-- the report find no more mistakes than before. Later passes may find more, because an earlier
+-- mistake hides theirs.
 module Project.FixRun
   ( AppliedFix (..),
     Mended (..),

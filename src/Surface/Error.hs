@@ -180,7 +180,8 @@ toReport err = case err of
       toReport (Unexpected region (FoundToken token) [] (Nothing, Nothing))
   NotInRow region token neighbours ->
     (at region "E0120" (describe token <> " does not belong in a row of a table"))
-      { hints = rowAdvice token neighbours
+      { fixes = rowFixes region token neighbours,
+        hints = rowAdvice token neighbours
       }
   NotInHeadings region token _
     | isBroken token ->
@@ -378,11 +379,21 @@ advice token neighbours = case (token, neighbours) of
       ]
   _ -> []
 
+-- | Fixes for a token that begins no cell of a row.
+rowFixes :: Region -> Token_ -> Neighbours -> [Fix]
+rowFixes region token neighbours = case (token, neighbours) of
+  (Symbol ",", (Just (Number _ Nothing), Just (Number _ _))) ->
+    [Fix.exchange "Write a decimal point." region ".", space]
+  (Symbol ",", _) -> [space]
+  (Stray _, _) -> [space]
+  (Symbol "+", (_, Just (Number _ _))) -> [Fix.removal "Remove the sign +." region]
+  (_, _) -> []
+  where
+    space = Fix.exchange "Write a space between the values." region " "
+
 -- | Suggests what to write instead of a token that begins no cell of a row.
 rowAdvice :: Token_ -> Neighbours -> [Text]
 rowAdvice token neighbours = case (token, neighbours) of
-  (Symbol ",", (Just (Number _ Nothing), Just (Number _ _))) ->
-    ["A decimal point is a point: 59.3.", spaces]
   (Symbol ",", _) -> [spaces]
   (Stray _, _) -> [spaces]
   (Symbol "(", (Just (Symbol "-"), _)) -> ["The sign stands in the brackets too: (-h)."]

@@ -25,6 +25,8 @@ import Geometry.Segment qualified as Segment
 import Geometry.Vec (Point)
 import Geometry.Vec qualified as Vec
 import Part.Part (Contour (contourName), Element (..), Side (..))
+import Report.Fix (Fix)
+import Report.Fix qualified as Fix
 import Report.Report (Label (..), Report (..))
 import Toolpath.Tolerance qualified as Tolerance
 import Toolpath.WarningReport
@@ -148,18 +150,29 @@ data Unsupported
     Unreached
   deriving stock (Eq, Show)
 
+-- | Fixes that put another side in place of the one in a region.
+sideFixes :: Region -> [Fix]
+sideFixes region =
+  [ Fix.proposed (Fix.exchange ("Write " <> word <> ", " <> meaning <> ".") region word)
+    | (word, meaning) <-
+        [ ("left", "left of the direction of travel"),
+          ("right", "right of the direction of travel"),
+          ("on", "with the centre of the cutter on the contour")
+        ]
+  ]
+
 -- | The report of an error.
 toReport :: Error -> Report
 toReport err = case err of
   SideOfOpen region side (Name name) contour ->
     (at region "E0401" ("the open contour ‘" <> name <> "’ has no " <> sideWord side))
       { others = [Label contour "this contour is open"],
-        hints = ["Say left or right of the direction of travel, or on."]
+        fixes = sideFixes region
       }
   SideOfFace region side (Name name) contour ->
     (at region "E0401" ("the profile ‘" <> name <> "’ has no " <> sideWord side))
       { others = [Label contour "this profile begins and ends at the same x"],
-        hints = ["Say left or right of the direction of travel, or on."]
+        fixes = sideFixes region
       }
   ConcaveRadius region tool element old largest ->
     ( at
@@ -285,7 +298,8 @@ toReport err = case err of
         \conventional on the other"
     )
       { others = [Label statement "milled here"],
-        hints = ["Leave the word out, or mill the contour on one of its sides."]
+        fixes = [Fix.proposed (Fix.removal "Leave the word out." region)],
+        hints = ["Or mill the contour on one of its sides."]
       }
   SenseAgainstSide region side ->
     (at region "E0409" "the cutter does not cut like this on this side of the contour")
@@ -294,8 +308,9 @@ toReport err = case err of
           [ "With the spindle clockwise the cutter climbs on the left of the direction of travel; \
             \with the spindle counter-clockwise, on the right."
           ],
+        fixes = [Fix.proposed (Fix.removal "Leave the word out." region)],
         hints =
-          [ "Leave the word out, take the other side, or mill reversed(…). In a mirrored block \
+          [ "Or take the other side, or mill reversed(…). In a mirrored block \
             \left becomes right; outside and inside stay what they are."
           ]
       }
