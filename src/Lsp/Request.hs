@@ -50,7 +50,8 @@ table =
     ("textDocument/definition", definition),
     ("textDocument/documentSymbol", symbols),
     ("textDocument/formatting", formatting),
-    ("textDocument/codeAction", codeActions)
+    ("textDocument/codeAction", codeActions),
+    ("partc/at", atPosition)
   ]
 
 -- | The position in the parameters of a request, as an offset: a count of characters from the
@@ -73,6 +74,20 @@ hover client subject params =
       | markdown client = markup "markdown" ("```part\n" <> line h <> "\n```\n" <> Name.meaning h)
       | otherwise = markup "plaintext" (line h <> "\n" <> Name.meaning h)
     line h = Name.name h <> maybe "" (" = " <>) (Name.value h)
+
+-- | What is at a position, as a title and the rows of a table, for a panel beside the text.
+atPosition :: Method
+atPosition _ subject params =
+  maybe Null shown . Name.hover (now subject) (sound subject) <$> offsetIn subject params
+  where
+    shown h =
+      object
+        [ "title" .= Name.name h,
+          "rows"
+            .= ( [["value", value] | Just value <- [Name.value h]]
+                   <> [["meaning", Name.meaning h]]
+               )
+        ]
 
 -- | The JSON value of a text whose @kind@ is @markdown@ or @plaintext@.
 markup :: Text -> Text -> Value

@@ -4,7 +4,7 @@ module Lsp.SessionSpec (spec) where
 import Base.Region qualified as Region
 import Base.Result qualified as Result
 import Control.Monad (forM_)
-import Data.Aeson (Value (..), object, (.=))
+import Data.Aeson (Value (..), object, toJSON, (.=))
 import Data.Aeson.Key qualified as Key
 import Data.Either (lefts)
 import Data.List (sort)
@@ -202,6 +202,18 @@ spec = do
             )
           ]
       fmap items (answer (object [])) `shouldBe` Right []
+    it "leave what is at a position to a request of its own" $ do
+      let answer line column =
+            ask
+              "partc/at"
+              (about addressOf (line, column))
+              (opened (header <> "let depth = 1 mm\nlet b = depth\n"))
+      fmap (\v -> (field "title" v, field "rows" v)) (answer 7 9)
+        `shouldBe` Right
+          ( String "depth",
+            toJSON [["value" :: Text, "1 mm"], ["meaning", "a length"]]
+          )
+      answer 0 1 `shouldBe` Right Null
     it "of a text with a byte order mark count this mark as a character" $
       map from (squiggles ("\xFEFFpart p junk\n" <> Text.drop 7 header)) `shouldBe` [(0, 8)]
     prop "are shifted by the UTF-16 length of a text that is inserted before them in the line"
