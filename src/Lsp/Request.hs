@@ -75,7 +75,8 @@ hover client subject params =
       | otherwise = markup "plaintext" (line h <> "\n" <> Name.meaning h)
     line h = Name.name h <> maybe "" (" = " <>) (Name.value h)
 
--- | What is at a position, as a title and the rows of a table, for a panel beside the text.
+-- | Name at a position with its value and meaning: a title and the rows of a table, for a panel
+-- beside the text.
 atPosition :: Method
 atPosition _ subject params =
   maybe Null shown . Name.hover (now subject) (sound subject) <$> offsetIn subject params

@@ -60,7 +60,8 @@ data InterpolationMethod
     EvaluationFunction
   deriving stock (Eq, Show)
 
--- | What the drives of the axes can follow, in pulses per second. 'Nothing' if it is not known.
+-- | Limits of the drives of the axes, in pulses per second. 'Nothing' for a limit that is not
+-- known.
 data FrequencyLimits = FrequencyLimits
   { -- | highest mean frequency of an axis in a frame
     highestFrequency :: Maybe Double,
