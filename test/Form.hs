@@ -1,5 +1,6 @@
--- | The rules on the form of the code, as data and as a check: widths, lengths, tuning pragmas,
--- names of types, and the data of a stage. The exceptions stand here with their reasons.
+-- | The rules on the form of the code, as data and as a check: widths, lengths, first words of
+-- comments, tuning pragmas, names of types, and the data of a stage. The exceptions are here with
+-- their reasons.
 module Form
   ( Source (..),
     moduleName,
@@ -12,7 +13,7 @@ module Form
   )
 where
 
-import Data.Char (isUpper)
+import Data.Char (isLetter, isUpper)
 import Data.List (nub)
 import Data.Map.Strict (Map)
 import Data.Map.Strict qualified as Map
@@ -39,6 +40,8 @@ data Problem
     LongFunction Text Int
   | -- | the name and the number of parameters
     ManyParameters Text Int
+  | -- | a comment that begins with a word such as /What/: the number of its line, and the word
+    VagueComment Int Text
   | -- | a tuning pragma outside of the modules that may have one
     Tuned Text
   | -- | an exception whose reason is gone
@@ -108,6 +111,7 @@ problems :: Exceptions -> Source -> [Problem]
 problems excepted (Source path text) =
   [WideLine n w | (n, l) <- zip [1 ..] rows, let w = Text.length l, w > widestLine]
     <> [LongModule count | let count = length rows, count > longestModule]
+    <> [VagueComment n word | (n, word) <- commentStarts rows, word `elem` vagueStarts]
     <> concatMap ofDefinition own
     <> [Tuned pragma | isLibrary, not (mayBeTuned name), pragma <- tuningPragmas rows]
     <> [NeedlessException d | isLibrary, d <- needless]
@@ -129,6 +133,22 @@ problems excepted (Source path text) =
     unneeded known keeps =
       [d | d <- Map.keys known, inThisModule d, d `notElem` map qualified (filter keeps own)]
     inThisModule d = Text.dropWhileEnd (/= '.') d == name <> "."
+
+-- | First words of all comments, with the numbers of their lines.
+commentStarts :: [Text] -> [(Int, Text)]
+commentStarts rows =
+  [ (n, Text.takeWhile isLetter (Text.dropWhile (`elem` ("-|^ " :: String)) row))
+    | (n, before, row) <- zip3 [1 ..] ("" : stripped) stripped,
+      isComment row,
+      not (isComment before) || "-- |" `Text.isPrefixOf` row || before == "--"
+  ]
+  where
+    stripped = map Text.strip rows
+    isComment = Text.isPrefixOf "--"
+
+-- | Words with which no comment begins, as docs/glossary.md says.
+vagueStarts :: [Text]
+vagueStarts = ["What", "Whether", "How", "Where", "Of"]
 
 -- | The pragmas that tell the compiler how to optimise.
 tuningPragmas :: [Text] -> [Text]
@@ -158,6 +178,7 @@ sentence problem = case problem of
   LongModule n -> "has " <> number n <> " lines" <> limit longestModule
   LongFunction d n -> d <> " has " <> number n <> " lines" <> limit longestFunction
   ManyParameters d n -> d <> " has " <> number n <> " parameters" <> limit mostParameters
+  VagueComment n word -> "line " <> number n <> " begins a comment with ‘" <> word <> "’"
   Tuned pragma -> "may not have the tuning pragma " <> pragma
   NeedlessException d -> d <> " is an exception in test/Form.hs without need"
   where

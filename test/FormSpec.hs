@@ -19,6 +19,12 @@ spec = do
     it "notices a line of 101 columns, in tests too" $ do
       found "test/NameSpec.hs" [Text.replicate 100 "x"] `shouldBe` []
       found "test/NameSpec.hs" ["", Text.replicate 101 "x"] `shouldBe` [WideLine 2 101]
+    it "notices a comment that begins with what, whether, how, where or of" $ do
+      found "src/Base/Name.hs" ["-- | Count of names.", "-- Where they are, is not said."]
+        `shouldBe` []
+      found "src/Base/Name.hs" ["f = id", "  where", "    -- Where names are.", "    g = id"]
+        `shouldBe` [VagueComment 3 "Where"]
+      found "test/NameSpec.hs" ["-- | What a name is.", "f = id"] `shouldBe` [VagueComment 1 "What"]
     it "notices a module of 601 lines" $ do
       found "src/Base/Name.hs" (replicate 600 "--") `shouldBe` []
       found "src/Base/Name.hs" (replicate 601 "--") `shouldBe` [LongModule 601]

@@ -193,8 +193,8 @@ topLevelBlocks source = case filter isCode source of
   where
     isCode l = not (Text.null (Text.strip l)) && not ("--" `Text.isPrefixOf` Text.stripStart l)
 
--- | How many parameters a type signature has: the number of its arrows outside of brackets, after
--- the constraints.
+-- | Count of the parameters of a type signature: its arrows outside of brackets, after the
+-- constraints.
 parameterCount :: [Token] -> Int
 parameterCount = go (0 :: Int) 0
   where

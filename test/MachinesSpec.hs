@@ -91,7 +91,7 @@ outcomeOn loaded target = do
 framesOf :: FrameProgram -> [Frame]
 framesOf = map Frame.frame . Frame.plannedFrames
 
--- | How many frames a tape has, how many of them are arcs, and how many rows it has, in words.
+-- | Counts in words: of the frames of a tape, of the arcs among them, and of its rows.
 counts :: [Frame] -> Tape -> Text
 counts frames tape =
   Text.intercalate

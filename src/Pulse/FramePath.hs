@@ -120,8 +120,8 @@ directions path = case path of
     let d = Pulses5 (signum x) (signum y) (signum z) (signum a) (signum b) in (d, d)
   Arc {clockwise, from = (a, b), to = (c, d)} ->
     let s = if clockwise then -1 else 1
-        -- If the tangent is parallel to one axis, the other axis moves along the radius next, or has
-        -- done so last.
+        -- If the tangent is parallel to one axis, the other axis moves along the radius next, or
+        -- has done so last.
         first along radius = if along /= 0 then signum along else negate (signum radius)
         final along radius = if along /= 0 then signum along else signum radius
      in ( Pulses5 (first (-s * b) a) (first (s * a) b) 0 0 0,

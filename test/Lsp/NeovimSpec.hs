@@ -48,7 +48,7 @@ instance FromJSON Shown where
   parseJSON = withObject "a diagnostic" $ \o ->
     Shown <$> o .: "from" <*> o .: "to" <*> o .: "code" <*> ((== (1 :: Int)) <$> o .: "severity")
 
--- | What Neovim shows, as the script test/Lsp/neovim.lua writes it: the file type, the diagnostics,
+-- | Display of Neovim, as the script test/Lsp/neovim.lua writes it: the file type, the diagnostics,
 -- true if the jump was made, the cursor after it, the text of the hover, and true if the reports
 -- are gone after the program is fixed.
 data Answer = Answer

@@ -183,7 +183,7 @@ anyContour = oneof [whole <$> Generate.closedCase, whole <$> Generate.openCase, 
       share <- elements [0.01, 0.1, 1]
       pure (Reachable.contour s, Reachable.side s, Mm (share * Reachable.radius s))
 
--- | Where the cutter fits, the path is that of the oracle "Offset.Elementwise".
+-- | The path is that of the oracle "Offset.Elementwise" if the cutter fits.
 agreementLaw :: Polyarc -> Side -> Mm -> (Bool, [Double]) -> Property
 agreementLaw contour' side' radius' (isSharp, extras) =
   case Equidistant.styled style side' radius' contour' of
