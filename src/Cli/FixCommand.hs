@@ -8,7 +8,7 @@ import Base.Decimal qualified as Decimal
 import Base.Region (Position (..), Source)
 import Base.Result (Result (..))
 import Cli.Error (Error (..))
-import Cli.InputFile (descriptionsFor, displayName, readContents, readProgram, readerFrom)
+import Cli.InputFile (displayName, loadText, readProgram)
 import Cli.Outcome (exitAfterWriting, failWith, printResult)
 import Cli.Output (Exit (..), Reporter)
 import Cli.Output qualified as Output
@@ -17,7 +17,6 @@ import Data.Text qualified as Text
 import Data.Text.Encoding qualified as Encoding
 import Project.FixRun (AppliedFix (..), Mended (..))
 import Project.FixRun qualified as FixRun
-import Project.LoadedProgram (LoadedProgram (descriptions))
 import Project.LoadedProgram qualified as LoadedProgram
 import Query.Snapshot qualified as Snapshot
 import Report.Report (Report)
@@ -44,9 +43,8 @@ fix reporter isDry file
 -- | Source of a text, and the reports on it.
 checked :: Reporter -> Text -> Text -> IO (Source, [Report])
 checked reporter name text = do
-  loaded <- LoadedProgram.load (readerFrom readContents) (Text.unpack name) text
-  found <- descriptionsFor [] (descriptions loaded)
-  let result = Snapshot.checkWith values loaded {descriptions = found}
+  loaded <- loadText [] name text
+  let result = Snapshot.checkWith values loaded
   pure (LoadedProgram.source loaded, Report.sorted (errors result <> warnings result))
   where
     values = Output.values (Output.settings reporter)

@@ -7,6 +7,7 @@ module Cli.InputFile
     withInput,
     ownFiles,
     readProgram,
+    loadText,
     readBytes,
     readerFrom,
     readContents,
@@ -62,16 +63,18 @@ withInput reporter file targets continue = do
         (parameter, _) : _ <- values ->
         failWith reporter (displayName file) (SheetAssigned parameter)
     Right text -> do
-      program <- LoadedProgram.load (readerFrom readContents) (Text.unpack (displayName file)) text
-      descriptions <- descriptionsFor targets (LoadedProgram.descriptions program)
-      continue
-        Input
-          { name = displayName file,
-            loaded = program {LoadedProgram.descriptions},
-            values
-          }
+      loaded <- loadText targets (displayName file) text
+      continue Input {name = displayName file, loaded, values}
   where
     values = Output.values (Output.settings reporter)
+
+-- | Loads a program from its text, with its imports and with the descriptions of machines that it
+-- and @targets@ name. @name@ is the path to which imports are relative.
+loadText :: [Text] -> Text -> Text -> IO LoadedProgram
+loadText targets name text = do
+  program <- LoadedProgram.load (readerFrom readContents) (Text.unpack name) text
+  descriptions <- descriptionsFor targets (LoadedProgram.descriptions program)
+  pure program {LoadedProgram.descriptions}
 
 -- | The paths of the files from which a program is compiled: the program itself, the programs and
 -- tables that it imports, its machine descriptions. No output may replace them.

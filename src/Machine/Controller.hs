@@ -19,6 +19,7 @@ module Machine.Controller
     ControlJob (..),
     JobRequest (..),
     jobFor,
+    requestInterval,
     ticksIn,
     capacity,
   )
@@ -177,6 +178,20 @@ jobFor wanted control = find (wanted . request) (jobs control)
 -- frequency in ticks per second.
 ticksIn :: Int -> Seconds -> Int
 ticksIn frequency (Seconds t) = max 1 (round (t * fromIntegral frequency))
+
+-- | Ticks between two requests of a job, if the clock or the speed of the reader sets them.
+requestInterval :: IntegratorControl -> JobRequest -> Maybe Int
+requestInterval control r = case r of
+  AtCharacter -> Just (max 1 (floor (perSecond / rowsPerSecond (reader control))))
+  AtAcceleration t -> Just (ticksIn (clock control) t)
+  Periodic t -> Just (ticksIn (clock control) t)
+  AtNumber -> Nothing
+  AtTransfer -> Nothing
+  AtCompensation -> Nothing
+  AtDirection _ _ -> Nothing
+  AfterCommand {} -> Nothing
+  where
+    perSecond = fromIntegral (clock control)
 
 -- | Capacity of the cell U: the sum at which it overflows.
 capacity :: IntegratorControl -> Int

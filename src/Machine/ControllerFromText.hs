@@ -12,7 +12,7 @@ import Base.Region (Located (..), Region)
 import Base.Result (Result)
 import Base.Result qualified as Result
 import Data.List (sortOn)
-import Data.Maybe (fromMaybe, isJust)
+import Data.Maybe (isJust)
 import Data.Text (Text)
 import Machine.Controller
 import Machine.ControllerError (ControllerFault (..))
@@ -321,18 +321,12 @@ check machine region control = map (BadController region) (common <> special)
 
 -- | Part of the time that the jobs need that come by the clock or with each row of the tape.
 timedLoad :: IntegratorControl -> Double
-timedLoad control = sum (map load (jobs control))
-  where
-    load j = fromIntegral (duration j) / fromMaybe (1 / 0) (ticksBetween (request j))
-    ticksBetween r = case r of
-      AtCharacter -> Just (fromIntegral (clock control) / rowsPerSecond (reader control))
-      AtAcceleration t -> Just (fromIntegral (ticksIn (clock control) t))
-      Periodic t -> Just (fromIntegral (ticksIn (clock control) t))
-      AtNumber -> Nothing
-      AtTransfer -> Nothing
-      AtCompensation -> Nothing
-      AtDirection _ _ -> Nothing
-      AfterCommand {} -> Nothing
+timedLoad control =
+  sum
+    [ fromIntegral (duration j) / fromIntegral ticks
+      | j <- jobs control,
+        Just ticks <- [requestInterval control (request j)]
+    ]
 
 -- | Largest count of digits in the word of an axis for which the model of a controller computes
 -- with 64 bits.

@@ -17,12 +17,12 @@ module Pulse.IntegratorFeed
 where
 
 import Base.Quantity (Mm (..), Seconds (..))
+import Data.Maybe (fromMaybe)
 import Machine.Controller
   ( ControlJob (..),
     IntegratorControl (..),
     InterpolationMethod (..),
     JobRequest (..),
-    TapeReader (rowsPerSecond),
   )
 import Machine.Controller qualified as Controller
 import Machine.Machine (Axis (X), Machine)
@@ -158,13 +158,14 @@ waitBounds control frequency =
         (maximum (map duration (jobs control)))
         [(duration k, leastInterval (request k)) | k <- upToIt]
     v = FeedIntegrator.cellFor (Controller.capacity control) (clock control) frequency
-    row = max 1 (floor (fromIntegral (clock control) / rowsPerSecond (reader control)))
+    timed = fromMaybe 1 . Controller.requestInterval control
+    row = timed AtCharacter
     leastInterval r = case r of
       AtCharacter -> row
       AtNumber -> row
       AtTransfer -> 2 * row
       AtCompensation -> 2 * row
       AtDirection n _ -> n * (Controller.capacity control `quot` v)
-      AtAcceleration t -> Controller.ticksIn (clock control) t
-      Periodic t -> Controller.ticksIn (clock control) t
+      AtAcceleration _ -> timed r
+      Periodic _ -> timed r
       AfterCommand _ t _ -> Controller.ticksIn (clock control) t
