@@ -66,7 +66,7 @@ data InterpolationMethod
 data FrequencyLimits = FrequencyLimits
   { -- | highest mean frequency of an axis in a frame
     highestFrequency :: Maybe Double,
-    -- | largest change of this frequency from one frame to the next
+    -- | largest jump of the frequency of an axis at the joint of two frames
     largestJump :: Maybe Double
   }
   deriving stock (Eq, Show)

@@ -12,7 +12,7 @@ module Pulse.FramePath
     leadingAxis,
     allPulses,
     endOf,
-    directions,
+    velocities,
     AskedFeed (..),
     askedFeed,
     feedOn,
@@ -112,21 +112,15 @@ endOf path = case path of
   Line d -> d
   Arc {from = (a, b), to = (c, d)} -> Pulses5 (c - a) (d - b) 0 0 0
 
--- | Directions in which each axis moves at the start and at the end of a path: 1, −1, or 0 for an
--- axis that rests.
-directions :: FramePath -> (Pulses5, Pulses5)
-directions path = case path of
-  Line (Pulses5 x y z a b) ->
-    let d = Pulses5 (signum x) (signum y) (signum z) (signum a) (signum b) in (d, d)
-  Arc {clockwise, from = (a, b), to = (c, d)} ->
-    let s = if clockwise then -1 else 1
-        -- If the tangent is parallel to one axis, the other axis moves along the radius next, or
-        -- has done so last.
-        first along radius = if along /= 0 then signum along else negate (signum radius)
-        final along radius = if along /= 0 then signum along else signum radius
-     in ( Pulses5 (first (-s * b) a) (first (s * a) b) 0 0 0,
-          Pulses5 (final (-s * d) c) (final (s * c) d) 0 0 0
-        )
+-- | Velocities of the five axes at the start and at the end of a path, if it is run at an even
+-- feed: the signed pulses that an axis would make if it kept its velocity over the whole path.
+velocities :: FramePath -> ([Double], [Double])
+velocities path = case path of
+  Line d -> let v = map fromIntegral (Steps.toList d) in (v, v)
+  Arc {clockwise, from, to} -> (alongTangent from, alongTangent to)
+    where
+      turn = if clockwise then negate (sweep path) else sweep path
+      alongTangent (a, b) = [-turn * fromIntegral b, turn * fromIntegral a, 0, 0, 0]
 
 -- | Feed that a frame asks.
 data AskedFeed

@@ -59,8 +59,8 @@ data FrameMeasure = FrameMeasure
     feeds :: Maybe (Double, Double, Double),
     -- | mean frequencies of the five axes, in pulses per second; empty if the frame takes no time
     frequencies :: [Double],
-    -- | Changes of these frequencies from the end of the frame before, with the directions in which
-    -- the axes move there; empty without such a frame. An axis that turns back jumps by the sum.
+    -- | jumps of the frequencies of the axes at the joint with the frame before, if both frames run
+    -- at their mean feeds; empty without such a frame. An axis that turns back jumps by the sum.
     jumps :: [Double],
     -- | commands with the ticks at which they go out
     commands :: [(Tick, CommandName, Int)]
@@ -97,8 +97,7 @@ data JobLoad = JobLoad {runCount :: Int, runTicks :: Tick, longestWait :: Tick}
 data Progress = Progress
   { position :: Pulses5,
     total :: RunTotal,
-    -- | mean frequencies of the axes in the last frame that moved, with the signs of the directions
-    -- at its end
+    -- | signed frequencies of the axes at the end of the last frame that moved
     lastFrequencies :: [Double],
     -- | true if the last frame moved at a feed
     wasFeedMove :: Bool
@@ -201,11 +200,10 @@ ended machine clock t m = (f, p')
     long = FeedWindow.pathLength w
     mean = FeedWindow.speed clock long ticks
     hasTime = ticks > 0 && long > 0
-    hz = map perSecond (Steps.toList (FeedWindow.made w))
-    (atStart, atEnd) = maybe (zero, zero) FramePath.directions (path s)
-    signed directions = zipWith (*) (map fromIntegral (Steps.toList directions)) hz
+    hz = map (perSecond . fromIntegral) (Steps.toList (FeedWindow.made w))
+    (atStart, atEnd) = maybe ([], []) FramePath.velocities (path s)
     jump a b = abs (a - b)
-    perSecond n = fromIntegral n * fromIntegral clock / fromIntegral ticks
+    perSecond n = n * fromIntegral clock / fromIntegral ticks
     isFeedMove = isAtFeed machine (frameStarted s)
     inCut = wasFeedMove p && isFeedMove
     f =
@@ -221,14 +219,14 @@ ended machine clock t m = (f, p')
           asked = FramePath.askedFeed machine (frameStarted s) <$ path s,
           feeds = if hasTime then Just (feedsOf mean w) else Nothing,
           frequencies = if hasTime then hz else [],
-          jumps = if hasTime then zipWith jump (signed atStart) (lastFrequencies p) else [],
+          jumps = if hasTime then zipWith jump (map perSecond atStart) (lastFrequencies p) else [],
           commands = reverse (given m)
         }
     p' =
       Progress
         { position = positionAfter f,
           total = withFrame f (total p),
-          lastFrequencies = if hasTime then signed atEnd else lastFrequencies p,
+          lastFrequencies = if hasTime then map perSecond atEnd else lastFrequencies p,
           wasFeedMove = isFeedMove
         }
 
