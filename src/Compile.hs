@@ -19,6 +19,7 @@ module Compile
     analyse,
     Analysis (..),
     check,
+    checkEvaluated,
     punch,
     Punched (..),
     prove,
@@ -100,8 +101,11 @@ data Analysis = Analysis {mentions :: [Checked.Mention], part :: Part, path :: T
 -- | Computes the part and the toolpath of a program (Surface → Checked → Part → Toolpath). @values@
 -- has the names of the parameters that the command line sets, with the texts of their new values.
 analyse :: [(Text, Text)] -> LoadedProgram -> Result Report Report Analysis
-analyse values loaded = do
-  (checked, part) <- evaluate values loaded
+analyse values loaded = evaluate values loaded >>= plan
+
+-- | Computes the toolpath of an evaluated program (Part → Toolpath).
+plan :: (Checked.Program, Part) -> Result Report Report Analysis
+plan (checked, part) = do
   -- @mentions@ is evaluated now. So the checked program is freed before the toolpath is computed.
   mentions <- pure $! Checked.mentions checked
   path <- mapErrors Toolpath.warningReport Toolpath.toReport (Toolpath.toToolpath part)
@@ -110,8 +114,15 @@ analyse values loaded = do
 -- | Runs all compiler passes up to the frames, for every machine of the job, and gives their errors
 -- and warnings. Makes no tape.
 check :: Job -> LoadedProgram -> Result Report Report Analysis
-check Job {values, machinesFor} loaded =
-  analyse values loaded `thenSound` \analysis@Analysis {part, path} ->
+check job loaded = checkEvaluated job (evaluate (values job) loaded)
+
+-- | Continues 'check' after 'evaluate'. The result includes the errors and warnings of evaluation.
+checkEvaluated ::
+  Job ->
+  Result Report Report (Checked.Program, Part) ->
+  Result Report Report Analysis
+checkEvaluated Job {machinesFor} evaluated =
+  (evaluated >>= plan) `thenSound` \analysis@Analysis {part, path} ->
     analysis <$ (machinesFor part path >>= traverse (`punch` path))
 
 -- | Makes the tapes one after the other. The toolpath is freed before the last tape is verified.

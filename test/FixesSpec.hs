@@ -69,7 +69,7 @@ counts reports = Map.fromListWith (+) [(code r, 1) | r <- reports]
 checked :: FilePath -> Text -> IO (Source, [Report])
 checked file text = do
   loaded <- LoadedProgram.load (Import.byName reader) file text
-  let result = Snapshot.checkWith [] loaded
+  let result = Snapshot.whole (Snapshot.checkWith [] loaded)
   pure (LoadedProgram.source loaded, Report.sorted (errors result <> warnings result))
   where
     reader name = do

@@ -44,7 +44,7 @@ fix reporter isDry file
 checked :: Reporter -> Text -> Text -> IO (Source, [Report])
 checked reporter name text = do
   loaded <- loadText [] name text
-  let result = Snapshot.checkWith values loaded
+  let result = Snapshot.whole (Snapshot.checkWith values loaded)
   pure (LoadedProgram.source loaded, Report.sorted (errors result <> warnings result))
   where
     values = Output.values (Output.settings reporter)

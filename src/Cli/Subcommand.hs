@@ -131,7 +131,7 @@ compile reporter options = withInput reporter (file options) (targets options) $
 -- cannot execute. It makes no tape.
 check :: Reporter -> FilePath -> IO Exit
 check reporter file = withInput reporter file [] $ \given ->
-  settled reporter given (Snapshot.checkWith (values given) (loaded given)) (const (pure Done))
+  settled reporter given (Snapshot.whole (Snapshot.checkWith (values given) (loaded given))) (const (pure Done))
 
 -- | Proves the tape in @tapeFile@ against the program in @file@. Without @tapeFile@ it proves the
 -- tape that the compiler makes of the program. If @withPulses@ is true, it also proves the pulses

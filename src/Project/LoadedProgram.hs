@@ -28,7 +28,7 @@ import Sheet.ToSurface qualified as Sheet
 import Surface.Error qualified as Surface
 import Surface.Import qualified as Surface
 import Surface.Syntax qualified as Surface
-import System.FilePath (takeDirectory, takeExtension)
+import System.FilePath (takeDirectory, takeExtension, (</>))
 
 -- | A part program and its files.
 data LoadedProgram = LoadedProgram
@@ -41,7 +41,9 @@ data LoadedProgram = LoadedProgram
     -- | the regions of the names of imports and of table files, with the paths of these files
     imports :: [(Region, Text)],
     -- | the machine descriptions that the program names
-    descriptions :: Descriptions
+    descriptions :: Descriptions,
+    -- | the paths of the imports, the table files and the machine descriptions
+    files :: [Text]
   }
 
 -- | Loads a program or an input sheet with the text @text@. Reports name it by @path@. A machine
@@ -61,7 +63,10 @@ load reader path text
         { source = Surface.source loaded,
           surface = mapErrors Surface.toReport Surface.toReport (Surface.surface loaded),
           imports = Surface.imports loaded,
-          descriptions
+          descriptions,
+          files =
+            map snd (Surface.imports loaded)
+              <> [Text.pack (takeDirectory path </> Text.unpack name) | (name, _) <- descriptions]
         }
 
 -- | The part program that an input sheet with the text @text@ describes.
@@ -71,7 +76,8 @@ fromInputSheet path text =
     { source = Region.fromText (Text.pack path) text,
       surface = Sheet.program <$> mapErrors id Sheet.toReport (Sheet.read text),
       imports = [],
-      descriptions = []
+      descriptions = [],
+      files = []
     }
 
 -- | The names of the machine description files that a program names.

@@ -2,8 +2,11 @@
 module Query.Snapshot
   ( Snapshot (..),
     Check,
+    Stages (..),
     checkWith,
+    unanalysed,
     take,
+    inStages,
     isGood,
     importOf,
   )
@@ -19,6 +22,7 @@ import Data.Bifunctor (first)
 import Data.Maybe qualified as Maybe
 import Data.Text (Text)
 import Data.Text qualified as Text
+import Part.Part (Part)
 import Project.Job qualified as Job
 import Project.LoadedProgram (LoadedProgram)
 import Project.LoadedProgram qualified as LoadedProgram
@@ -29,15 +33,26 @@ import Report.Report qualified as Report
 import Surface.Syntax (Program (..))
 import Prelude hiding (take)
 
--- | A function that checks a loaded program and gives its mistakes and its results. Editors and the
--- command line use the same function.
-type Check = LoadedProgram -> Result Report Report Analysis
+-- | A function that checks a loaded program in two stages. Editors and the command line use the
+-- same function.
+type Check = LoadedProgram -> Stages
+
+-- | The two stages of a check, each with its reports.
+data Stages = Stages
+  { -- | form, names, types and geometry
+    evaluated :: Result Report Report (Checked.Program, Part),
+    -- | the same, continued with the toolpath and the frames; it is computed on demand
+    whole :: ~(Result Report Report Analysis)
+  }
 
 -- | Checks a program with all compiler passes up to the frames. The frames are those for the
 -- machine that the program names. Each pair in @values@ has the name of a parameter and the text of
 -- a value, which replaces the value of the parameter in the program.
 checkWith :: [(Text, Text)] -> Check
-checkWith values loaded = Compile.check (Job.forOwnMachine values loaded) loaded
+checkWith values loaded =
+  Stages {evaluated, whole = Compile.checkEvaluated (Job.forOwnMachine values loaded) evaluated}
+  where
+    evaluated = Compile.evaluate values loaded
 
 -- | A program at one moment, with the results of its check.
 data Snapshot = Snapshot
@@ -45,35 +60,61 @@ data Snapshot = Snapshot
     source :: Source,
     -- | errors and warnings, in the order of the text
     reports :: [Report],
+    -- | those among the reports that come from the toolpath and the frames
+    laterReports :: [Report],
     -- | the syntax tree of the program's own text, without the definitions that it imports
     program :: Program,
     -- | the mentions of names in the program, and the values of its definitions
     facts :: Mentions,
     -- | the file names in imports and table statements: the region of each name, and the path of
     -- the file
-    imports :: [(Region, Text)]
+    imports :: [(Region, Text)],
+    -- | the paths of all files on which the results depend, apart from the program's own
+    dependencies :: [Text]
   }
 
--- | Checks a program, and keeps its results as a snapshot.
-take :: Check -> LoadedProgram -> Snapshot
-take check loaded =
+-- | The snapshot of a text that is not analysed: it has no results.
+unanalysed :: Source -> Snapshot
+unanalysed source =
   Snapshot
     { source,
-      reports,
-      program,
-      facts = Mention.facts known,
-      imports = LoadedProgram.imports loaded
+      reports = [],
+      laterReports = [],
+      program = Program [] [],
+      facts = Mention.none,
+      imports = [],
+      dependencies = []
     }
+
+-- | Checks a program, and keeps the results of all passes as a snapshot.
+take :: Check -> LoadedProgram -> Snapshot
+take check = snd . inStages check
+
+-- | Checks a program, and keeps its results as two snapshots. The first one has the results of
+-- evaluation: form, names, types and geometry. The second one has all results; it is computed on
+-- demand.
+inStages :: Check -> LoadedProgram -> (Snapshot, Snapshot)
+inStages check loaded = (early, complete)
   where
+    Stages {evaluated, whole} = check loaded
+    early =
+      Snapshot
+        { source,
+          reports = Report.sorted (both evaluated),
+          laterReports = [],
+          program = written {statements = filter isOwn (statements written)},
+          facts = Mention.facts (first Checked.mentions <$> output evaluated),
+          imports = LoadedProgram.imports loaded,
+          dependencies = LoadedProgram.files loaded
+        }
+    complete = early {reports = Report.sorted (both whole), laterReports = Report.sorted later}
+    later =
+      drop (length (errors evaluated)) (errors whole)
+        <> drop (length (warnings evaluated)) (warnings whole)
+    both result = errors result <> warnings result
     source = LoadedProgram.source loaded
-    result = check loaded
-    reports = Report.sorted (errors result <> warnings result)
-    whole = Maybe.fromMaybe (Program [] []) (output (LoadedProgram.surface loaded))
-    program = whole {statements = filter (isOwn . Region.start . Region.region) (statements whole)}
-    isOwn offset = offset <= Text.length (Region.text source)
-    known = case output result of
-      Just analysis -> Just (Compile.mentions analysis, Compile.part analysis)
-      Nothing -> first Checked.mentions <$> output (Compile.evaluate [] loaded)
+    written = Maybe.fromMaybe (Program [] []) (output (LoadedProgram.surface loaded))
+    isOwn s = Region.start (Region.region s) <= Text.length (Region.text source)
 
 -- | True if the program has no errors. It may have warnings.
 isGood :: Snapshot -> Bool

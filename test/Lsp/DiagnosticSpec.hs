@@ -7,15 +7,13 @@ import Data.Aeson (Value (..), object)
 import Data.Text (Text)
 import Lsp.Capability qualified as Capability
 import Lsp.Diagnostic qualified as Diagnostic
-import Lsp.Document (Document (..))
+import Lsp.Document qualified as Document
 import Lsp.Location qualified as Location
 import Lsp.Message (Outgoing (..))
 import Lsp.Talk (at, field)
 import Lsp.Uri (Uri (..))
-import Query.Mention qualified as Mention
-import Query.Snapshot (Snapshot (Snapshot))
+import Query.Snapshot qualified as Snapshot
 import Report.Report (Report, ReportPlace (..), Severity (..), report)
-import Surface.Syntax (Program (..))
 import Test.Hspec
 
 spec :: Spec
@@ -46,11 +44,15 @@ shown :: Report -> [(Value, Value)]
 shown r =
   case Diagnostic.publish
     (Capability.fromInitialize (object []))
-    (Document uri' Nothing text')
+    (Document.open uri' Nothing text')
     (Just snapshot) of
     Notify _ params
       | Array ds <- field "diagnostics" params ->
         [(field "start" (field "range" d), field "message" d) | d <- foldMap pure ds]
     other -> error (show other)
   where
-    snapshot = Snapshot source [r] (Program [] []) Mention.none [(Region 3 4, "/tmp/ж.part")]
+    snapshot =
+      (Snapshot.unanalysed source)
+        { Snapshot.reports = [r],
+          Snapshot.imports = [(Region 3 4, "/tmp/ж.part")]
+        }

@@ -295,7 +295,7 @@ reported text =
       let ReportCode c = Report.code r
   ]
   where
-    result = Snapshot.checkWith [] (LoadedProgram.fromText "/tmp/a.part" text)
+    result = Snapshot.whole (Snapshot.checkWith [] (LoadedProgram.fromText "/tmp/a.part" text))
     ends end r = case Report.place r of
       InSource region -> positionIn text (end region)
       InTape _ -> (0, 0)
