@@ -85,7 +85,16 @@ sanctioned :: Map Text [Text]
 sanctioned =
   Map.fromList
     [ ("Base.Crash", ["Control.Exception"]),
-      ("Lsp.Server", ["System.IO", "System.IO.Error", "Control.Exception"])
+      ( "Lsp.Server",
+        [ "Control.Concurrent",
+          "Control.Exception",
+          "System.Exit",
+          "System.IO",
+          "System.Mem",
+          "System.Posix.Process",
+          "System.Timeout"
+        ]
+      )
     ]
 
 -- | Library modules that bring effects: these, and all below them.

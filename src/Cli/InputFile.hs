@@ -10,6 +10,7 @@ module Cli.InputFile
     loadText,
     readBytes,
     readerFrom,
+    identity,
     readContents,
     descriptionsFor,
     displayName,
@@ -91,9 +92,10 @@ ownFiles file input = file : imported <> concatMap asWritten described
 -- canonical paths, so a file with two paths is imported only once.
 readerFrom :: (FilePath -> IO (Either Text Text)) -> Import.Reader IO
 readerFrom contents = Import.Reader {Import.contents, Import.identity}
-  where
-    identity path =
-      either (const path :: IOException -> FilePath) id <$> try (canonicalizePath path)
+
+-- | The canonical path of a file: the same for all paths that lead to it.
+identity :: FilePath -> IO FilePath
+identity path = either (const path :: IOException -> FilePath) id <$> try (canonicalizePath path)
 
 -- | The text of a file on the disk, or the reason why it cannot be read.
 readContents :: FilePath -> IO (Either Text Text)

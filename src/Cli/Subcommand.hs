@@ -21,13 +21,12 @@ import Cli.InputFile
     displayName,
     ownFiles,
     readBytes,
-    readContents,
     readProgram,
-    readerFrom,
     source,
     withInput,
     withoutSurface,
   )
+import Cli.LanguageServer qualified as LanguageServer
 import Cli.MachineTable qualified as MachineTable
 import Cli.NodeTable qualified as NodeTable
 import Cli.Options (CompileOptions (..), Invocation (..), Subcommand (..))
@@ -51,16 +50,12 @@ import Draw.Plot qualified as Plot
 import Draw.TapeRows qualified as TapeRows
 import Frame.Frame (Frame)
 import Frame.Frame qualified as Frame
-import Lsp.Server (Host (Host, input, load))
-import Lsp.Server qualified as Lsp
-import Lsp.Session (Ending (..))
 import Machine.BuiltIn qualified as BuiltIn
 import Machine.Machine (Machine, MachineName (..))
 import Machine.Machine qualified as Machine
 import Project.Error qualified as Project
 import Project.Job (Job (verification), Verification (..))
 import Project.Job qualified as Job
-import Project.LoadedProgram qualified as LoadedProgram
 import Project.Target qualified as Target
 import Query.Snapshot qualified as Snapshot
 import Report.Explanation qualified as Explanation
@@ -71,7 +66,6 @@ import Sheet.FromText qualified as Sheet
 import Sheet.ToSurface qualified as Sheet
 import Sheet.ToText qualified as Sheet
 import Sheet.Unsupported qualified as Unsupported
-import System.IO (stdin, stdout)
 import Tape.Punch qualified as Tape
 import Tape.Tape (Tape (..))
 import Verify.PulseProof (PulseProof)
@@ -99,7 +93,7 @@ perform reporter command = case command of
   Machines name asText -> machines reporter name asText
   DrawTape target range tape -> drawTape reporter target range tape
   Explain code -> explain reporter code
-  LanguageServer -> languageServer reporter
+  LanguageServer -> LanguageServer.serve reporter
   Fmt checkOnly files ->
     maximum <$> traverse (Formatter.fmt reporter checkOnly) (NonEmpty.toList files)
   Mend isDry files ->
@@ -131,7 +125,8 @@ compile reporter options = withInput reporter (file options) (targets options) $
 -- cannot execute. It makes no tape.
 check :: Reporter -> FilePath -> IO Exit
 check reporter file = withInput reporter file [] $ \given ->
-  settled reporter given (Snapshot.whole (Snapshot.checkWith (values given) (loaded given))) (const (pure Done))
+  let checked = Snapshot.whole (Snapshot.checkWith (values given) (loaded given))
+   in settled reporter given checked (const (pure Done))
 
 -- | Proves the tape in @tapeFile@ against the program in @file@. Without @tapeFile@ it proves the
 -- tape that the compiler makes of the program. If @withPulses@ is true, it also proves the pulses
@@ -328,23 +323,3 @@ explain reporter wanted = case wanted of
   Just word -> case Explanation.find word of
     [] -> failWith reporter "" (UnknownCode word (Explanation.near word))
     found -> printResult reporter (Text.intercalate "\n" (map Explanation.render found))
-
--- | Serves an editor until it ends the conversation. The text of a document that is open in the
--- editor takes precedence over its file on the disk.
-languageServer :: Reporter -> IO Exit
-languageServer reporter =
-  statusOf
-    <$> Lsp.serve
-      Host
-        { input = stdin,
-          Lsp.output = stdout,
-          load,
-          Lsp.check = Snapshot.checkWith (Output.values (Output.settings reporter))
-        }
-  where
-    load openText path = LoadedProgram.load (readerFrom (contents openText)) (Text.unpack path)
-    contents openText path =
-      maybe (readContents path) (pure . Right) (openText (Text.pack path))
-    statusOf ending = case ending of
-      Orderly -> Done
-      Abrupt -> Failed

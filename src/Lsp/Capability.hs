@@ -23,7 +23,13 @@ data Client = Client
     -- | true if a diagnostic may have related information, with ranges of its own
     related :: Bool,
     -- | true if the answer to a request for code actions may contain actions, not only commands
-    actions :: Bool
+    actions :: Bool,
+    -- | true if the client shows the progress of the server's work
+    progress :: Bool,
+    -- | true if the client asks for code lenses again when the server wants it
+    refreshesLenses :: Bool,
+    -- | true if the client can be asked to watch files
+    watchesFiles :: Bool
   }
   deriving stock (Eq, Show)
 
@@ -37,9 +43,14 @@ fromInitialize params =
         Just (Array kinds) -> String "markdown" `elem` toList kinds
         _ -> False,
       actions = isJust (at ["codeAction", "codeActionLiteralSupport"]),
-      related = at ["publishDiagnostics", "relatedInformation"] == Just (Bool True)
+      related = at ["publishDiagnostics", "relatedInformation"] == Just (Bool True),
+      progress = inAll ["window", "workDoneProgress"] == Just (Bool True),
+      refreshesLenses = inAll ["workspace", "codeLens", "refreshSupport"] == Just (Bool True),
+      watchesFiles =
+        inAll ["workspace", "didChangeWatchedFiles", "dynamicRegistration"] == Just (Bool True)
     }
   where
+    inAll keys = within ("capabilities" : keys) params
     at keys = within (["capabilities", "textDocument"] <> keys) params
 
 -- | The value at a path of keys in nested objects, the outermost key first. Nothing if a key is

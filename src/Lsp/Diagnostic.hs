@@ -3,6 +3,8 @@
 -- the compiler; the reports are read from it.
 module Lsp.Diagnostic
   ( publish,
+    mostDiagnostics,
+    incomplete,
     diagnostic,
     bug,
   )
@@ -26,13 +28,31 @@ import Query.Snapshot qualified as Snapshot
 import Report.Report (Label (..), Report (..), ReportCode (..), ReportPlace (..), Severity (..))
 import Report.Report qualified as Report
 
--- | The notification that replaces all diagnostics of a document by the reports of a snapshot.
--- Without a snapshot, it removes all diagnostics of the document.
-publish :: Client -> Document -> Maybe Snapshot -> Outgoing
-publish client document snapshot =
-  notification
-    document
-    (maybe [] (\s -> map (diagnostic client (uri document) s) (Snapshot.reports s)) snapshot)
+-- | The notification that replaces all diagnostics of a document by these reports on a snapshot.
+-- Without a snapshot, it removes all diagnostics of the document. If there are more than
+-- 'mostDiagnostics', the last one says how many are left out.
+publish :: Client -> Document -> Maybe (Snapshot, [Report]) -> Outgoing
+publish client document = notification document . foldMap (diagnostics client document)
+
+diagnostics :: Client -> Document -> (Snapshot, [Report]) -> [Value]
+diagnostics client document (snapshot, reports) =
+  map (diagnostic client (uri document) snapshot) shown
+    <> [atTop Warning ("partc check shows " <> more <> " more reports") | not (null left)]
+  where
+    (shown, left) = splitAt mostDiagnostics reports
+    more = Decimal.whole (length left)
+
+-- | The greatest count of reports that an editor shows for one document.
+mostDiagnostics :: Int
+mostDiagnostics = 250
+
+-- | The notification for a document whose analysis was stopped: the reports so far, and a warning
+-- with the reason @why@.
+incomplete :: Client -> Document -> Maybe (Snapshot, [Report]) -> Text -> Outgoing
+incomplete client document found why =
+  notification document $
+    atTop Warning (why <> " Later mistakes are missing here. partc check has no limit.") :
+    foldMap (diagnostics client document) found
 
 -- | The notification that replaces all diagnostics of a document by one about a bug of the
 -- compiler. This diagnostic is at the beginning of the document. @failure@ is the message of the
@@ -41,14 +61,18 @@ bug :: Document -> Text -> Outgoing
 bug document failure =
   notification
     document
-    [object ["range" .= top, "severity" .= number Error, "source" .= name, "message" .= message]]
-  where
-    message = "this is a bug in partc: please send us the program\n" <> failure
+    [atTop Error ("this is a bug in partc: please send us the program\n" <> failure)]
+
+-- | A diagnostic of the server itself at the beginning of a document.
+atTop :: Severity -> Text -> Value
+atTop severity message =
+  object
+    ["range" .= top, "severity" .= number severity, "source" .= name, "message" .= message]
 
 notification :: Document -> [Value] -> Outgoing
-notification Document {uri, version} diagnostics =
+notification Document {uri, version} found =
   Notify "textDocument/publishDiagnostics" . object $
-    ["uri" .= uri, "diagnostics" .= diagnostics] <> ["version" .= v | Just v <- [version]]
+    ["uri" .= uri, "diagnostics" .= found] <> ["version" .= v | Just v <- [version]]
 
 -- | Diagnostic of a report.
 diagnostic :: Client -> Uri -> Snapshot -> Report -> Value

@@ -18,6 +18,7 @@ import Data.ByteString (ByteString)
 import Data.ByteString.Lazy qualified as LazyByteString
 import Data.Maybe qualified as Maybe
 import Data.Text (Text)
+import Lsp.Surrogate qualified as Surrogate
 
 -- | A message from the client: a request wants an answer, a notification wants none.
 data Incoming
@@ -25,10 +26,11 @@ data Incoming
     Request Id Text Value
   | -- | the name of the method, the parameters
     Notification Text Value
-  | -- | an answer to a request of the server; it is ignored, because the server sends no requests
+  | -- | an answer to a request of the server; it is ignored, because no answer changes anything
     Reply
-  | -- | bytes that are no message; the server answers with this failure
-    Malformed Failure
+  | -- | a message that is not understood: the identifier if it has one, or null, and the failure
+    -- with which the server answers
+    Malformed Id Failure
   deriving stock (Eq, Show)
 
 -- | A number or a text that names a request.
@@ -42,6 +44,8 @@ data Outgoing
     Refusal Id Failure
   | -- | a notification: the name of the method, the parameters
     Notify Text Value
+  | -- | a request of the server: its identifier, the name of the method, the parameters
+    Ask Id Text Value
   deriving stock (Eq, Show)
 
 -- | The reason why a request has no result: a code of the protocol, and a message for people.
@@ -56,21 +60,33 @@ data ErrorCode
   | InvalidParams
   | InternalError
   | NotInitialized
+  | RequestCancelled
+  | ContentModified
   deriving stock (Eq, Show, Enum, Bounded)
 
--- | Reads the JSON body of a message, without the header. Wrong bytes give 'Malformed'.
+-- | Reads the JSON body of a message, without the header. Wrong bytes give 'Malformed'. Half of a
+-- surrogate pair, which some editors send while an emoji is deleted, becomes a replacement
+-- character.
 decode :: ByteString -> Incoming
-decode body = case Aeson.decodeStrict' body of
-  Nothing -> Malformed (Failure ParseError "this is not JSON")
+decode body = case decoded of
+  Nothing -> Malformed Null (Failure ParseError "this is not JSON")
   Just (Object o) -> case (KeyMap.lookup "method" o, KeyMap.lookup "id" o) of
-    (Just (String method), Just ident) -> Request ident method (params o)
     (Just (String method), Nothing) -> Notification method (params o)
+    (Just (String method), Just ident) | isId ident -> Request ident method (params o)
     (Nothing, Just _) | any (`KeyMap.member` o) ["result", "error"] -> Reply
-    _ -> invalid
-  Just _ -> invalid
+    (_, Just ident) | isId ident -> invalid ident
+    _ -> invalid Null
+  Just _ -> invalid Null
   where
+    decoded = case Aeson.decodeStrict' body of
+      Nothing -> Aeson.decodeStrict' (Surrogate.replaced body)
+      found -> found
     params o = Maybe.fromMaybe Null (KeyMap.lookup "params" o)
-    invalid = Malformed (Failure InvalidRequest "this is no message of the protocol")
+    invalid ident = Malformed ident (Failure InvalidRequest "this is no message of the protocol")
+    isId ident = case ident of
+      Number _ -> True
+      String _ -> True
+      _ -> False
 
 -- | Writes the JSON body of a message, without the header.
 encode :: Outgoing -> ByteString
@@ -80,6 +96,8 @@ encode outgoing = LazyByteString.toStrict . Aeson.encode $ case outgoing of
     object
       [version, "id" .= ident, "error" .= object ["code" .= number errorCode, "message" .= text]]
   Notify method params -> object [version, "method" .= method, "params" .= params]
+  Ask ident method params ->
+    object [version, "id" .= ident, "method" .= method, "params" .= params]
   where
     version = "jsonrpc" .= ("2.0" :: Text)
 
@@ -92,3 +110,5 @@ number errorCode = case errorCode of
   InvalidParams -> -32602
   InternalError -> -32603
   NotInitialized -> -32002
+  RequestCancelled -> -32800
+  ContentModified -> -32801

@@ -9,6 +9,7 @@ module Lsp.Position
     fileOf,
     offset,
     region,
+    charactersIn,
   )
 where
 
@@ -82,9 +83,8 @@ units = Text.foldl' (\count c -> count + width c) 0
 
 -- | The count of characters at the beginning of a text that fit into @limit@ UTF-16 code units.
 charactersIn :: Int -> Text -> Int
-charactersIn limit content =
-  length
-    (takeWhile (<= limit) (drop 1 (scanl (\count c -> count + width c) 0 (Text.unpack content))))
+charactersIn limit =
+  length . takeWhile (<= limit) . drop 1 . scanl (\count c -> count + width c) 0 . Text.unpack
 
 -- | The count of UTF-16 code units of a character: 2 outside of the basic multilingual plane,
 -- otherwise 1.

@@ -4,6 +4,8 @@ module Lsp.Request
   ( Subject (..),
     Method,
     method,
+    Need (..),
+    need,
   )
 where
 
@@ -33,7 +35,16 @@ import Surface.Formatter qualified as Formatter
 
 -- | The document that a request is about. @now@ is the snapshot of its present text. @sound@ is the
 -- snapshot of its last text without errors; nothing if there was none.
-data Subject = Subject {document :: Document, now :: Snapshot, sound :: Maybe Snapshot}
+--
+-- If the present text is not analysed yet, @now@ has only this text and @sound@ is the last
+-- snapshot. @proven@ is true if the tape of the present text is proven, false if it is not, and
+-- nothing if this is not known yet.
+data Subject = Subject
+  { document :: Document,
+    now :: Snapshot,
+    sound :: Maybe Snapshot,
+    proven :: Maybe Bool
+  }
 
 -- | A function that answers one kind of request. The arguments: the capabilities of the client, the
 -- document, the parameters of the request. The parser fails if the parameters are wrong.
@@ -43,6 +54,27 @@ type Method = Client -> Subject -> Value -> Parser Value
 -- server does not support this method.
 method :: Text -> Maybe Method
 method name = lookup name table
+
+-- | The results that must be there before a request is answered.
+data Need
+  = -- | any snapshot of the document
+    LastSnapshot
+  | -- | the evaluation of the present text
+    Evaluation
+  | -- | all passes on the present text
+    AllPasses
+  deriving stock (Eq, Show)
+
+-- | The results that a request with this method needs.
+need :: Text -> Need
+need name
+  | name `elem` quick = LastSnapshot
+  | name `elem` late = AllPasses
+  | otherwise = Evaluation
+  where
+    quick =
+      ["textDocument/hover", "textDocument/definition", "textDocument/documentSymbol", "partc/at"]
+    late = ["textDocument/codeAction", "textDocument/codeLens"]
 
 table :: [(Text, Method)]
 table =

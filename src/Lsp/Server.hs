@@ -1,14 +1,27 @@
--- | The language server on a pair of streams: a loop around the steps of "Lsp.Session". An event is
--- a message from the client or the passing of a deadline.
+-- | The language server on a pair of streams: a loop around the steps of "Lsp.Session".
 --
--- One thread reads a message, handles it and writes the answers, so the answers have the order of
--- the requests. While no message arrives, the thread waits until the next deadline of the session.
+-- Four threads share the work. The reader receives messages. The writer sends messages, so that a
+-- client that does not read stops nothing else. The worker analyses texts; its work can be stopped
+-- at any time. The main thread takes events one after the other (a message, a result of the worker,
+-- the passing of a deadline) and does only short steps.
 module Lsp.Server
   ( Host (..),
     serve,
   )
 where
 
+import Control.Concurrent
+  ( Chan,
+    ThreadId,
+    forkIO,
+    killThread,
+    newChan,
+    newEmptyMVar,
+    putMVar,
+    readChan,
+    takeMVar,
+    writeChan,
+  )
 import Control.Exception
   ( AsyncException (..),
     IOException,
@@ -19,21 +32,29 @@ import Control.Exception
     throwIO,
     try,
   )
+import Control.Monad (unless, void, when)
 import Data.ByteString (ByteString)
 import Data.ByteString qualified as ByteString
-import Data.Either qualified as Either
+import Data.Maybe qualified as Maybe
 import Data.Text (Text)
 import Data.Text qualified as Text
 import GHC.Clock (getMonotonicTimeNSec)
+import GHC.Stats qualified as Stats
+import Lsp.Conversation
+import Lsp.Diagnostic qualified as Diagnostic
 import Lsp.Message qualified as Message
-import Lsp.Session (Awaited (..), Effect (..), Ending (..), Event (..), Milliseconds (..), Session)
+import Lsp.OpenDocument (Milliseconds (..))
+import Lsp.Schedule qualified as Schedule
 import Lsp.Session qualified as Session
 import Lsp.Transport qualified as Transport
 import Project.LoadedProgram (LoadedProgram)
 import Query.Snapshot (Check)
 import Query.Snapshot qualified as Snapshot
-import System.IO (Handle, hFlush, hSetBinaryMode, hWaitForInput)
-import System.IO.Error (isEOFError)
+import System.Exit (ExitCode (..))
+import System.IO (Handle, hFlush, hSetBinaryMode)
+import System.Mem (performMajorGC)
+import System.Posix.Process (exitImmediately)
+import System.Timeout (timeout)
 
 -- | The streams and functions that the server works with.
 data Host = Host
@@ -41,12 +62,14 @@ data Host = Host
     input :: Handle,
     -- | the stream of messages to the client, which nothing else may use
     output :: Handle,
-    -- | Loads a program with its imports. The first argument maps the path of a file to its text
-    -- if the file is open in the editor; this text takes precedence over the file on the disk. The
-    -- other arguments are the path and the text of the program.
-    load :: (Text -> Maybe Text) -> Text -> Text -> IO LoadedProgram,
+    -- | Loads a program with its imports. The first argument has the paths and the texts of the
+    -- files that are open in the editor; these texts take precedence over the files on the disk.
+    -- The other arguments are the path and the text of the program.
+    load :: [(Text, Text)] -> Text -> Text -> IO LoadedProgram,
     -- | finds the mistakes of a loaded program
-    check :: Check
+    check :: Check,
+    -- | makes the tape of a program for its machine and proves it; true if it is proven
+    prove :: LoadedProgram -> Bool
   }
 
 -- | Serves a client until it sends @exit@ or a stream ends.
@@ -54,57 +77,132 @@ serve :: Host -> IO Ending
 serve host = do
   hSetBinaryMode (input host) True
   hSetBinaryMode (output host) True
-  ended <- try (loop host "" Session.start) :: IO (Either IOException Ending)
-  -- A failure of the streams means that the client is gone.
-  pure (Either.fromRight Abrupt ended)
+  events <- newChan
+  messages <- newChan
+  hasWritten <- newEmptyMVar
+  _ <- forkIO (readMessages (input host) events)
+  _ <- forkIO (writeMessages (output host) messages events >> putMVar hasWritten ())
+  ending <- converse Lines {host, events, messages} Nothing start
+  writeChan messages Nothing
+  isWritten <- timeout patience (takeMVar hasWritten)
+  -- A client that does not read must not keep the process alive.
+  unless (Maybe.isJust isWritten) (exitImmediately (ExitFailure 1))
+  pure ending
+  where
+    patience = 100000 -- µs
 
--- | Handles messages and deadlines one after the other. @received@ are the bytes that have been
--- received and not yet handled.
-loop :: Host -> ByteString -> Session -> IO Ending
-loop host received session = case Transport.next received of
-  Transport.Complete body more ->
-    handle host (Received (Message.decode body)) session >>= continue host more
-  Transport.Headless more -> loop host more session
-  Transport.Incomplete missing -> do
-    now <- clock
-    arrived <- case Session.deadline session of
-      Nothing -> receive host missing
-      Just time -> do
-        ready <- inputWithin host (time `after` now)
-        if ready then receive host missing else pure (Just "")
-    case arrived of
-      Nothing -> pure (Session.leaving session)
-      Just "" -> handle host Due session >>= continue host received
-      Just bytes -> loop host (received <> bytes) session
+-- | The lines between the threads: events for the main thread, of which 'Nothing' is the end of a
+-- stream, and encoded messages for the writer, of which 'Nothing' is the last.
+data Lines = Lines
+  { host :: Host,
+    events :: Chan (Maybe Event),
+    messages :: Chan (Maybe ByteString)
+  }
 
--- | Continues the loop with the session in @outcome@. If @outcome@ is the end of the conversation,
--- the loop ends. @received@ are the bytes not yet handled.
-continue :: Host -> ByteString -> Either Ending Session -> IO Ending
-continue host received outcome = case outcome of
-  Left ending -> pure ending
-  Right session -> loop host received session
+-- | Receives messages until the end of the input.
+readMessages :: Handle -> Chan (Maybe Event) -> IO ()
+readMessages from events = go ""
+  where
+    go received = case Transport.next received of
+      Transport.Complete body more -> do
+        incoming <- evaluate (Message.decode body)
+        writeChan events (Just (Received incoming))
+        go more
+      Transport.Headless more -> go more
+      Transport.Incomplete missing -> do
+        arrived <- try (receive from missing) :: IO (Either IOException ByteString)
+        case arrived of
+          Right bytes | not (ByteString.null bytes) -> go (received <> bytes)
+          _ -> writeChan events Nothing
 
--- | Receives bytes from the client; nothing at the end of the input. @missing@ is the least count
--- of bytes that the current message lacks. If @missing@ is above 64 KiB, the function waits for all
+-- | Receives bytes from the client; none at the end of the input. @missing@ is the least count of
+-- bytes that the current message lacks. If @missing@ is above 64 KiB, the function waits for all
 -- these bytes. Otherwise it returns the bytes that have arrived, at most 64 KiB.
-receive :: Host -> Int -> IO (Maybe ByteString)
-receive host missing = do
-  bytes <-
-    if missing > chunk
-      then ByteString.hGet (input host) missing
-      else ByteString.hGetSome (input host) chunk
-  pure (if ByteString.null bytes then Nothing else Just bytes)
+receive :: Handle -> Int -> IO ByteString
+receive from missing
+  | missing > chunk = ByteString.hGet from missing
+  | otherwise = ByteString.hGetSome from chunk
   where
     chunk = 65536
 
--- | True if bytes or the end of the input arrive within @wait@ milliseconds.
-inputWithin :: Host -> Int -> IO Bool
-inputWithin host wait = do
-  ready <- try (hWaitForInput (input host) wait)
-  case ready of
-    Right answer -> pure answer
-    Left e | isEOFError e -> pure True
-    Left e -> throwIO e
+-- | Sends messages until the last one. If the client is gone, the main thread gets the end of the
+-- stream.
+writeMessages :: Handle -> Chan (Maybe ByteString) -> Chan (Maybe Event) -> IO ()
+writeMessages to messages events = do
+  next <- readChan messages
+  case next of
+    Nothing -> pure ()
+    Just body -> do
+      sent <- try (ByteString.hPut to (Transport.framed body) >> hFlush to)
+      case sent :: Either IOException () of
+        Right () -> writeMessages to messages events
+        Left _ -> writeChan events Nothing
+
+-- | Handles events one after the other. @worker@ is the thread of the running work.
+converse :: Lines -> Maybe ThreadId -> Session -> IO Ending
+converse between worker session = do
+  now <- clock
+  next <- nextEvent between now session
+  case next of
+    Nothing -> do
+      mapM_ stopThread worker
+      pure (Session.leaving session)
+    Just event -> do
+      (session', effects) <- handled now event session
+      (worker', ending) <- performAll between session' worker effects
+      collected event
+      maybe (converse between worker' session') pure ending
+
+-- | The next event; nothing at the end of a stream. While the worker has work, its use of memory is
+-- watched.
+nextEvent :: Lines -> Milliseconds -> Session -> IO (Maybe Event)
+nextEvent between@Lines {events} now session = case waits of
+  [] -> readChan events
+  _ -> do
+    arrived <- if wait <= 0 then pure Nothing else timeout (1000 * wait) (readChan events)
+    case (arrived, current session) of
+      (Just event, _) -> pure event
+      (Nothing, Just w) -> do
+        memory <- memoryInUse
+        if memory > mostMemory
+          then pure (Just (Worked (number (work w)) TooLarge))
+          else timePassed
+      (Nothing, Nothing) -> timePassed
+  where
+    wait = minimum waits
+    waits =
+      [time `after` now | Just time <- [Schedule.deadline session]]
+        <> [watchInterval | Just _ <- [current session]]
+    watchInterval = 100
+    timePassed = do
+      later <- clock
+      if any (<= later) (Schedule.deadline session)
+        then pure (Just Due)
+        else nextEvent between later session
+
+-- | The greatest memory in bytes that the server may use while it analyses a text: 1 GB.
+mostMemory :: Int
+mostMemory = 1000000000
+
+-- | The memory in bytes that the process has from the operating system for its data, as of the last
+-- garbage collection; 0 if the collector keeps no statistics.
+memoryInUse :: IO Int
+memoryInUse = do
+  isKnown <- Stats.getRTSStatsEnabled
+  if isKnown
+    then fromIntegral . Stats.gcdetails_mem_in_use_bytes . Stats.gc <$> Stats.getRTSStats
+    else pure 0
+
+-- | Collects garbage after work that has left much of it, while the user reads its results.
+collected :: Event -> IO ()
+collected event = case event of
+  Worked _ (EvaluationChecked _) -> pure ()
+  Worked _ _ -> do
+    memory <- memoryInUse
+    when (memory > comfortable) performMajorGC
+  _ -> pure ()
+  where
+    comfortable = 50000000
 
 -- | The milliseconds from @now@ to @time@, or 0 if @time@ is earlier.
 after :: Milliseconds -> Milliseconds -> Int
@@ -114,43 +212,88 @@ after (Milliseconds time) (Milliseconds now) = max 0 (time - now)
 clock :: IO Milliseconds
 clock = Milliseconds . fromIntegral . (`div` 1000000) <$> getMonotonicTimeNSec
 
--- | Handles an event and sends the messages that answer it. The result is the next session, or the
--- end of the conversation. An exception in the handling does not end the conversation (see
--- 'Session.failed'), except 'UserInterrupt' and 'ThreadKilled', which come from outside.
-handle :: Host -> Event -> Session -> IO (Either Ending Session)
-handle host event session = do
-  now <- clock
-  outcome <- try (handled host now event session)
-  (session', ending, bytes) <- case outcome of
+-- | Handles an event. The effects are evaluated here. An exception in the handling does not end the
+-- conversation (see 'Session.failed'), except 'UserInterrupt' and 'ThreadKilled', which come from
+-- outside.
+handled :: Milliseconds -> Event -> Session -> IO (Session, [Performed])
+handled now event session = do
+  outcome <- try (prepared (Session.step now event session))
+  case outcome of
     Right done -> pure done
     Left e -> case fromException e of
       Just UserInterrupt -> throwIO UserInterrupt
       Just ThreadKilled -> throwIO ThreadKilled
-      _ -> prepared (Session.failed now (firstLine e) event session)
-  mapM_ (ByteString.hPut (output host) . Transport.framed) bytes
-  hFlush (output host)
-  pure (maybe (Right session') Left ending)
-  where
-    firstLine :: SomeException -> Text
-    firstLine e = Text.takeWhile (/= '\n') (Text.pack (displayException e))
+      _ -> prepared (session, Session.failed (firstLine e) event)
 
--- | The session after an event, the end of the conversation if the event ends it, and the messages
--- to send, encoded. The session and the messages are evaluated here, so that 'handle' catches their
--- exceptions.
-handled :: Host -> Milliseconds -> Event -> Session -> IO (Session, Maybe Ending, [ByteString])
-handled host now event session = do
-  supplied <-
-    foldl (\earlier a -> earlier >>= supply a) (pure session) (Session.awaited now event session)
-  prepared (Session.step now event supplied)
-  where
-    supply Awaited {path, text} earlier = do
-      loaded <- load host (Session.openText earlier) path text
-      evaluate (Session.supply path (Snapshot.take (check host) loaded) earlier)
+-- | The first line of the text of an exception.
+firstLine :: SomeException -> Text
+firstLine = Text.takeWhile (/= '\n') . Text.pack . displayException
 
--- | Evaluates a session and encodes the messages among the effects of a step. The @Maybe@ is the
--- end of the conversation, if it is among the effects.
-prepared :: (Session, [Effect]) -> IO (Session, Maybe Ending, [ByteString])
+-- | An effect to perform, whose message is encoded.
+data Performed = Write ByteString | Other Effect
+
+-- | Evaluates a session and encodes the messages among the effects of a step.
+prepared :: (Session, [Effect]) -> IO (Session, [Performed])
 prepared (session, effects) = do
   state <- evaluate session
-  bytes <- mapM evaluate [Message.encode m | Send m <- effects]
-  pure (state, lookup () [((), e) | Stop e <- effects], bytes)
+  performed <- mapM performedOf effects
+  pure (state, performed)
+  where
+    performedOf effect = case effect of
+      Send message -> Write <$> evaluate (Message.encode message)
+      _ -> pure (Other effect)
+
+-- | Performs effects in turn. The result has the thread of the running work, and the end of the
+-- conversation if the effects contain it.
+performAll ::
+  Lines -> Session -> Maybe ThreadId -> [Performed] -> IO (Maybe ThreadId, Maybe Ending)
+performAll between session worker effects = case effects of
+  [] -> pure (worker, Nothing)
+  Write bytes : more -> do
+    writeChan (messages between) (Just bytes)
+    performAll between session worker more
+  Other effect : more -> case effect of
+    Begin work -> do
+      mapM_ stopThread worker
+      thread <- forkIO (perform between (Session.openTexts session) work)
+      performAll between session (Just thread) more
+    Halt -> do
+      mapM_ stopThread worker
+      performAll between session Nothing more
+    Stop ending -> pure (worker, Just ending)
+    Send _ -> performAll between session worker more
+
+-- | Stops a thread. The function does not wait until the thread has stopped.
+stopThread :: ThreadId -> IO ()
+stopThread = void . forkIO . killThread
+
+-- | Does the work of the worker, and passes the results to the main thread. @texts@ are the open
+-- documents.
+perform :: Lines -> [(Text, Text)] -> WorkOrder -> IO ()
+perform Lines {host, events} texts WorkOrder {number, kind, path, text} = do
+  ended <- try (doWork kind)
+  case ended of
+    Right () -> pure ()
+    Left e -> case fromException e of
+      Just ThreadKilled -> pure ()
+      _ -> tell (Fault (firstLine e))
+  where
+    tell = writeChan events . Just . Worked number
+    force = Snapshot.force Diagnostic.mostDiagnostics
+    doWork work = case work of
+      Analysis
+        | ".machine" `Text.isSuffixOf` path -> do
+          let snapshot = Snapshot.ofDescription path text
+          evaluate (force snapshot)
+          tell (AllChecked snapshot)
+        | otherwise -> do
+          loaded <- load host texts path text
+          let (early, complete) = Snapshot.inStages (check host) loaded
+          evaluate (force early)
+          tell (EvaluationChecked early)
+          evaluate (force complete)
+          tell (AllChecked complete)
+      TapeProof -> do
+        loaded <- load host texts path text
+        isProven <- evaluate (prove host loaded)
+        tell (Proven isProven)

@@ -5,6 +5,7 @@ module Query.Formatting
   )
 where
 
+import Base.Lines qualified as Lines
 import Base.Region (Region (..))
 import Data.Text (Text)
 import Data.Text qualified as Text
@@ -26,7 +27,7 @@ change before after
           newText = Text.concat newMiddle
         }
   where
-    (front, old, new) = splitCommonPrefix (linesOf before) (linesOf after)
+    (front, old, new) = splitCommonPrefix (Lines.divided before) (Lines.divided after)
     (_, reversedOld, reversedNew) = splitCommonPrefix (reverse old) (reverse new)
     (oldMiddle, newMiddle) = (reverse reversedOld, reverse reversedNew)
     from = sum (map Text.length front)
@@ -38,12 +39,3 @@ splitCommonPrefix a b = case (a, b) of
     | x == y ->
       let (front, as', bs') = splitCommonPrefix as bs in (x : front, as', bs')
   _ -> ([], a, b)
-
--- | The lines of a text, each with its line end: LF, CR or CR LF.
-linesOf :: Text -> [Text]
-linesOf text
-  | Text.null text = []
-  | otherwise = (before <> ending) : linesOf (Text.drop (Text.length ending) rest)
-  where
-    (before, rest) = Text.break (\c -> c == '\n' || c == '\r') text
-    ending = if "\r\n" `Text.isPrefixOf` rest then "\r\n" else Text.take 1 rest

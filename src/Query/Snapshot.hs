@@ -7,21 +7,27 @@ module Query.Snapshot
     unanalysed,
     take,
     inStages,
+    ofDescription,
+    force,
     isGood,
+    hasFacts,
     importOf,
   )
 where
 
 import Base.Region (Region, Source)
 import Base.Region qualified as Region
-import Base.Result (Result (..))
+import Base.Result (Result (..), mapErrors)
 import Checked.Syntax qualified as Checked
 import Compile (Analysis)
 import Compile qualified
 import Data.Bifunctor (first)
+import Data.List qualified as List
 import Data.Maybe qualified as Maybe
 import Data.Text (Text)
 import Data.Text qualified as Text
+import Machine.Error qualified as Machine
+import Machine.FromText qualified as Machine
 import Part.Part (Part)
 import Project.Job qualified as Job
 import Project.LoadedProgram (LoadedProgram)
@@ -116,9 +122,27 @@ inStages check loaded = (early, complete)
     written = Maybe.fromMaybe (Program [] []) (output (LoadedProgram.surface loaded))
     isOwn s = Region.start (Region.region s) <= Text.length (Region.text source)
 
+-- | The snapshot of a machine description, from the path of its file and its text.
+ofDescription :: Text -> Text -> Snapshot
+ofDescription path text =
+  (unanalysed (Region.fromText path text)) {reports = Report.sorted (errors result)}
+  where
+    result = mapErrors id Machine.toReport (Machine.read text)
+
+-- | Evaluates the first @most@ reports of a snapshot and the mentions of names.
+force :: Int -> Snapshot -> ()
+force most Snapshot {reports, facts} =
+  foldr (seq . Report.force) () (List.take most reports)
+    `seq` length (Mention.mentions facts)
+    `seq` ()
+
 -- | True if the program has no errors. It may have warnings.
 isGood :: Snapshot -> Bool
 isGood = not . any Report.isError . reports
+
+-- | True if the names of the program have known meanings.
+hasFacts :: Snapshot -> Bool
+hasFacts = not . null . Mention.mentions . facts
 
 -- | Maps a region of an imported file or of a table file to the program's own text. The result is
 -- the region of the file name in an import or a table statement of the program. This statement

@@ -11,6 +11,7 @@ module Report.Report
     Label (..),
     report,
     remedies,
+    force,
     quote,
     severityWord,
     isError,
@@ -91,6 +92,10 @@ report severity code place title =
 -- | Remedies as sentences: the titles of the fixes, and the hints.
 remedies :: Report -> [Text]
 remedies r = map Fix.title (fixes r) <> hints r
+
+-- | Evaluates all texts of a report.
+force :: Report -> ()
+force r = foldr seq () (message r <> remedies r) `seq` length (others r) `seq` ()
 
 -- | Puts a word of the program in quotation marks. If it has more than 60 characters, only the
 -- first 57 are shown.

@@ -45,7 +45,7 @@ shown r =
   case Diagnostic.publish
     (Capability.fromInitialize (object []))
     (Document.open uri' Nothing text')
-    (Just snapshot) of
+    (Just (snapshot, Snapshot.reports snapshot)) of
     Notify _ params
       | Array ds <- field "diagnostics" params ->
         [(field "start" (field "range" d), field "message" d) | d <- foldMap pure ds]

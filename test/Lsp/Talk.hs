@@ -4,6 +4,10 @@ module Lsp.Talk
   ( Talk,
     begin,
     running,
+    runningWith,
+    slow,
+    finish,
+    finishEvaluation,
     say,
     pause,
     heard,
@@ -14,6 +18,7 @@ module Lsp.Talk
     close,
     textOf,
     published,
+    everyPublished,
     Squiggle (..),
     squiggles,
     addressOf,
@@ -34,76 +39,137 @@ import Data.Functor.Identity (Identity (..))
 import Data.Text (Text)
 import Data.Text qualified as Text
 import Data.Text.Encoding qualified as Encoding
+import Lsp.Conversation
+  ( Effect (..),
+    Event (..),
+    Outcome (..),
+    Session,
+    WorkKind (..),
+    WorkOrder (..),
+    start,
+  )
 import Lsp.Message (Failure, Incoming (..), Outgoing (..))
-import Lsp.Session (Awaited (..), Effect (..), Event (..), Milliseconds (..), Session)
+import Lsp.OpenDocument (Milliseconds (..))
+import Lsp.Schedule qualified as Schedule
 import Lsp.Session qualified as Session
 import Project.LoadedProgram qualified as LoadedProgram
+import Query.Snapshot (Snapshot)
 import Query.Snapshot qualified as Snapshot
 import Surface.Import qualified as Import
 
--- | A conversation: the session, the time in ms, and all effects of the server so far, the last one
--- first.
-data Talk = Talk Session Int [Effect]
+-- | A conversation: the session, the time in ms, all effects of the server so far, the last one
+-- first, and the work that the worker has begun. The worker is either quick and ends its work at
+-- once, or slow and ends it when the test says so.
+data Talk = Talk
+  { session :: Session,
+    time :: Int,
+    sent :: [Effect],
+    begun :: Maybe WorkOrder,
+    isSlow :: Bool
+  }
 
 -- | The state before the first message.
 begin :: Talk
-begin = Talk Session.start 0 []
+begin = Talk {session = start, time = 0, sent = [], begun = Nothing, isSlow = False}
 
 -- | The state after @initialize@ with these capabilities of text documents. Earlier messages are
 -- dropped.
 running :: Value -> Talk
-running capabilities = Talk session now []
-  where
-    Talk session now _ =
-      say
-        ( Request
-            (Number 0)
-            "initialize"
-            (object ["capabilities" .= object ["textDocument" .= capabilities]])
-        )
-        begin
+running capabilities = runningWith (object ["textDocument" .= capabilities])
+
+-- | The state after @initialize@ with these capabilities. Earlier messages are dropped.
+runningWith :: Value -> Talk
+runningWith capabilities =
+  (say (Request (Number 0) "initialize" (object ["capabilities" .= capabilities])) begin)
+    { sent = []
+    }
+
+-- | The same conversation with a slow worker.
+slow :: Talk -> Talk
+slow talk = talk {isSlow = True}
 
 -- | Sends a message from the client.
 say :: Incoming -> Talk -> Talk
 say incoming = happen (Received incoming)
 
--- | Brings the awaited snapshots and handles an event.
+-- | Handles an event. A quick worker ends its work.
 happen :: Event -> Talk -> Talk
-happen event (Talk session now sent) = Talk session' now (reverse effects <> sent)
+happen event talk
+  | isSlow talk = talk'
+  | otherwise = maybe talk' (const (finish talk')) (begun talk')
   where
-    time = Milliseconds now
-    (session', effects) =
-      Session.step time event (foldl supply session (Session.awaited time event session))
-    supply s Awaited {path, text} =
-      Session.supply
-        path
-        ( Snapshot.take
-            (Snapshot.checkWith [])
-            (runIdentity (LoadedProgram.load (Import.byName (opened s)) (Text.unpack path) text))
-        )
-        s
-    -- Imports find only open documents.
-    opened s there =
-      Identity (maybe (Left "it is not open") Right (Session.openText s (Text.pack there)))
+    (session', effects) = Session.step (Milliseconds (time talk)) event (session talk)
+    talk' =
+      talk
+        { session = session',
+          sent = reverse effects <> sent talk,
+          begun = foldl workAfter (begun talk) effects
+        }
+    workAfter before effect = case effect of
+      Begin work -> Just work
+      Halt -> Nothing
+      _ -> before
+
+-- | Lets a worker end its work.
+finish :: Talk -> Talk
+finish talk = case begun talk of
+  Nothing -> talk
+  Just work -> case kind work of
+    Analysis ->
+      let (early, complete) = analysed (session talk) work
+       in happen (Worked (number work) (AllChecked complete)) $
+            (evaluateOnly early work talk) {begun = Nothing}
+    TapeProof -> happen (Worked (number work) (Proven True)) talk {begun = Nothing}
+
+-- | Lets a slow worker end the evaluation.
+finishEvaluation :: Talk -> Talk
+finishEvaluation talk = case begun talk of
+  Just work | kind work == Analysis -> evaluateOnly (fst (analysed (session talk) work)) work talk
+  _ -> talk
+
+evaluateOnly :: Snapshot -> WorkOrder -> Talk -> Talk
+evaluateOnly early work talk =
+  (happen (Worked (number work) (EvaluationChecked early)) (slow talk)) {isSlow = isSlow talk}
+
+-- | The snapshots of a document. Imports find only open documents.
+analysed :: Session -> WorkOrder -> (Snapshot, Snapshot)
+analysed session work =
+  Snapshot.inStages
+    (Snapshot.checkWith [])
+    (runIdentity (LoadedProgram.load (Import.byName opened) (Text.unpack (path work)) (text work)))
+  where
+    opened there =
+      Identity (maybe (Left "it is not open") Right (lookup (Text.pack there) texts))
+    texts = Session.openTexts session
 
 -- | Lets the clock advance by a time in ms; deadlines within it are handled.
 pause :: Int -> Talk -> Talk
-pause milliseconds talk@(Talk session now sent) = case Session.deadline session of
+pause milliseconds talk = case Schedule.deadline (session talk) of
   Just (Milliseconds due)
-    | due <= now + milliseconds ->
-      pause (now + milliseconds - max now due) (happen Due (Talk session (max now due) sent))
-  _ -> let Talk s _ e = talk in Talk s (now + milliseconds) e
+    | due <= time talk + milliseconds ->
+      let then' = max (time talk) due
+       in pause (time talk + milliseconds - then') (happen Due talk {time = then'})
+  _ -> talk {time = time talk + milliseconds}
 
 -- | All effects of the server so far, in order.
 heard :: Talk -> [Effect]
-heard (Talk _ _ sent) = reverse sent
+heard = reverse . sent
 
 -- | The answer to a request.
 ask :: Text -> Value -> Talk -> Either Failure Value
-ask method params talk = case say (Request (String "q") method params) talk of
-  Talk _ _ (Send (Result (String "q") value) : _) -> Right value
-  Talk _ _ (Send (Refusal (String "q") failure) : _) -> Left failure
-  Talk _ _ sent -> error ("no answer: " <> show (take 1 sent))
+ask method params talk =
+  case answers (sent (say (Request (String "q") method params) talk)) of
+    answer : _ -> answer
+    [] -> error "no answer"
+  where
+    answers effects =
+      concat
+        [ case effect of
+            Send (Result (String "q") value) -> [Right value]
+            Send (Refusal (String "q") failure) -> [Left failure]
+            _ -> []
+          | effect <- effects
+        ]
 
 -- | Opens a text under an address.
 open :: Text -> Int -> Text -> Talk -> Talk
@@ -147,11 +213,21 @@ close uri =
 
 -- | The server's text of an open file.
 textOf :: Text -> Talk -> Maybe Text
-textOf path (Talk session _ _) = Session.openText session path
+textOf path talk = lookup path (Session.openTexts (session talk))
+
+-- | All published diagnostics in order, each set with its address and version. The set after
+-- evaluation is left out if the set after all passes follows it.
+published :: Talk -> [(Value, Value, [Squiggle])]
+published talk = concat (zipWith settledOnly all' (map Just (drop 1 all') <> [Nothing]))
+  where
+    all' = everyPublished talk
+    settledOnly set@(uri, version, _) next = case next of
+      Just (uri', version', _) | (uri, version) == (uri', version') -> []
+      _ -> [set]
 
 -- | All published diagnostics in order, each set with its address and version.
-published :: Talk -> [(Value, Value, [Squiggle])]
-published talk =
+everyPublished :: Talk -> [(Value, Value, [Squiggle])]
+everyPublished talk =
   [ (field "uri" p, field "version" p, map squiggle (list (field "diagnostics" p)))
     | Send (Notify "textDocument/publishDiagnostics" p) <- heard talk
   ]

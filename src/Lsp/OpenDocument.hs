@@ -1,0 +1,186 @@
+-- | A document that is open in the editor: its text, the results of its analyses, and the requests
+-- that wait for them.
+--
+-- A text is analysed in two stages: first evaluation (form, names, types, geometry), then all
+-- passes up to the frames. Results of an older text stay until those of the present text are there.
+module Lsp.OpenDocument
+  ( OpenDocument (..),
+    Stage (..),
+    ProofState (..),
+    WaitingRequest (..),
+    Milliseconds (..),
+    plus,
+    open,
+    changed,
+    evaluated,
+    settled,
+    subject,
+    isReady,
+    reportsFor,
+    dependsOn,
+    hasDependencies,
+  )
+where
+
+import Base.Region qualified as Region
+import Data.Aeson (Value)
+import Data.Maybe qualified as Maybe
+import Data.Text (Text)
+import Lsp.Document (Document)
+import Lsp.Document qualified as Document
+import Lsp.Message (Id)
+import Lsp.Request (Need (..), Subject (Subject, now, proven))
+import Lsp.Request qualified as Request
+import Lsp.Uri qualified as Uri
+import Query.CarriedReport qualified as CarriedReport
+import Query.Snapshot (Snapshot)
+import Query.Snapshot qualified as Snapshot
+import Report.Report (Report)
+
+-- | A time in ms since an arbitrary origin.
+newtype Milliseconds = Milliseconds Int
+  deriving stock (Eq, Ord, Show)
+
+-- | The time a number of ms after another time.
+plus :: Milliseconds -> Int -> Milliseconds
+plus (Milliseconds time) wait = Milliseconds (time + wait)
+
+-- | The results that exist for the present text.
+data Stage = Unanalysed | Evaluated | Settled
+  deriving stock (Eq, Ord, Show)
+
+-- | The proof of the present text's tape: not begun, or ended with a proven tape or without one.
+data ProofState = Unproven | ProofEnded Bool
+  deriving stock (Eq, Show)
+
+-- | A request that waits for an analysis: its identifier, its method, its parameters, and the time
+-- at which it is refused.
+data WaitingRequest = WaitingRequest
+  { identifier :: Id,
+    method :: Text,
+    parameters :: Value,
+    refusedAt :: Milliseconds
+  }
+
+-- | A document that is open in the editor.
+data OpenDocument = OpenDocument
+  { document :: Document,
+    -- | the results that exist for the present text and its imports
+    stage :: Stage,
+    -- | the last snapshot, perhaps of an older text
+    latest :: Maybe Snapshot,
+    -- | the last snapshot without an error in evaluation
+    sound :: Maybe Snapshot,
+    -- | the last snapshot of a settled text
+    lastSettled :: Maybe Snapshot,
+    -- | the time of the first change after the last beginning of an analysis
+    unsettledSince :: Maybe Milliseconds,
+    -- | the time at which the next analysis may begin; nothing if none is needed, or if it is
+    -- queued already
+    due :: Maybe Milliseconds,
+    -- | the time at which the tape may be made and proven; nothing if this is not to be done
+    proofDue :: Maybe Milliseconds,
+    proof :: ProofState,
+    -- | requests that wait for results, the newest first
+    waiting :: [WaitingRequest]
+  }
+
+-- | An opened document, whose first analysis is due at once.
+open :: Milliseconds -> Document -> OpenDocument
+open now document =
+  OpenDocument
+    { document,
+      stage = Unanalysed,
+      latest = Nothing,
+      sound = Nothing,
+      lastSettled = Nothing,
+      unsettledSince = Just now,
+      due = Just now,
+      proofDue = Nothing,
+      proof = Unproven,
+      waiting = []
+    }
+
+-- | The document after a change of its text or of a file on which it depends. Its analysis becomes
+-- due 30 ms later. Each further change delays it again, but not beyond 300 ms after the first.
+changed :: Milliseconds -> OpenDocument -> OpenDocument
+changed now o =
+  o
+    { stage = Unanalysed,
+      unsettledSince = Just since,
+      due = Just (min (now `plus` silence) (since `plus` longestBurst)),
+      proofDue = Nothing,
+      proof = Unproven
+    }
+  where
+    since = Maybe.fromMaybe now (unsettledSince o)
+    silence = 30
+    longestBurst = 300
+
+-- | Stores the results of evaluation.
+evaluated :: Snapshot -> OpenDocument -> OpenDocument
+evaluated snapshot o =
+  o
+    { stage = Evaluated,
+      latest = Just snapshot,
+      sound = if Snapshot.isGood snapshot then Just snapshot else sound o
+    }
+
+-- | Stores the results of all passes. The tape may be proven a moment later, if the text has no
+-- error and is a program.
+settled :: Milliseconds -> Snapshot -> OpenDocument -> OpenDocument
+settled now snapshot o =
+  o
+    { stage = Settled,
+      latest = Just snapshot,
+      sound =
+        if any Snapshot.isGood (latest o) || Snapshot.isGood snapshot
+          then Just snapshot
+          else sound o,
+      lastSettled = Just snapshot,
+      proofDue =
+        if Snapshot.isGood snapshot && not (Document.isDescription (document o))
+          then Just (now `plus` idleTime)
+          else Nothing
+    }
+  where
+    idleTime = 500
+
+-- | True if the results that a request needs are there.
+isReady :: Need -> OpenDocument -> Bool
+isReady need o = case need of
+  LastSnapshot -> Maybe.isJust (latest o)
+  Evaluation -> stage o >= Evaluated
+  AllPasses -> stage o == Settled
+
+-- | The subject of a request. If the present text is not analysed yet, its snapshot is an empty
+-- one, and answers come from the last snapshot, with positions moved to the present text.
+subject :: OpenDocument -> Subject
+subject o =
+  Subject {Request.document = document o, now, Request.sound = before, proven}
+  where
+    proven = case proof o of
+      ProofEnded isProven -> Just isProven
+      Unproven -> Nothing
+    (now, before) = case latest o of
+      Just snapshot | stage o >= Evaluated -> (snapshot, sound o)
+      Just snapshot | Snapshot.hasFacts snapshot -> (blank, Just snapshot)
+      _ -> (blank, sound o)
+    blank =
+      Snapshot.unanalysed
+        (Region.fromText (Uri.toPath (Document.uri (document o))) (Document.program (document o)))
+
+-- | The reports of a snapshot to publish. While only evaluation has ended, they include the reports
+-- of later passes on the last settled text, moved to the present text.
+reportsFor :: OpenDocument -> Snapshot -> [Report]
+reportsFor o snapshot = case lastSettled o of
+  Just before | stage o == Evaluated -> CarriedReport.carried before snapshot
+  _ -> Snapshot.reports snapshot
+
+-- | True if the results of a document depend on the file with this path.
+dependsOn :: Text -> OpenDocument -> Bool
+dependsOn path o = any ((path `elem`) . Snapshot.dependencies) (latest o)
+
+-- | True if the results of a document depend on other files.
+hasDependencies :: OpenDocument -> Bool
+hasDependencies = any (not . null . Snapshot.dependencies) . latest
