@@ -19,25 +19,33 @@ import Data.Bifunctor (first)
 import Data.Maybe qualified as Maybe
 import Data.Text (Text)
 import Data.Text qualified as Text
+import Part.Part (Part)
 import Project.Job qualified as Job
 import Project.LoadedProgram (LoadedProgram)
 import Project.LoadedProgram qualified as LoadedProgram
+import Query.Machining (MachineSummary)
+import Query.Machining qualified as Machining
 import Query.Mention (Mentions)
 import Query.Mention qualified as Mention
 import Report.Report (Report)
 import Report.Report qualified as Report
 import Surface.Syntax (Program (..))
+import Toolpath.Toolpath (Toolpath)
 import Prelude hiding (take)
 
 -- | A function that checks a loaded program and gives its mistakes and its results. Editors and the
 -- command line use the same function.
-type Check = LoadedProgram -> Result Report Report Analysis
+type Check = LoadedProgram -> Result Report Report (Analysis, [MachineSummary])
 
 -- | Checks a program with all compiler passes up to the frames. The frames are those for the
 -- machine that the program names. Each pair in @values@ has the name of a parameter and the text of
 -- a value, which replaces the value of the parameter in the program.
 checkWith :: [(Text, Text)] -> Check
-checkWith values loaded = Compile.check (Job.forOwnMachine values loaded) loaded
+checkWith values loaded =
+  summarised <$> Compile.checkedFrames (Job.forOwnMachine values loaded) loaded
+  where
+    summarised (analysis, made) =
+      (analysis, [Machining.summary (Compile.path analysis) m program | (m, program) <- made])
 
 -- | A program at one moment, with the results of its check.
 data Snapshot = Snapshot
@@ -51,7 +59,13 @@ data Snapshot = Snapshot
     facts :: Mentions,
     -- | the file names in imports and table statements: the region of each name, and the path of
     -- the file
-    imports :: [(Region, Text)]
+    imports :: [(Region, Text)],
+    -- | the evaluated part; absent if nothing of the program could be checked
+    part :: Maybe Part,
+    -- | the toolpath; absent if the program has an error before this stage
+    path :: Maybe Toolpath,
+    -- | the program on the machine that it names; empty if it names none, or has an error
+    machines :: [MachineSummary]
   }
 
 -- | Checks a program, and keeps its results as a snapshot.
@@ -62,7 +76,10 @@ take check loaded =
       reports,
       program,
       facts = Mention.facts known,
-      imports = LoadedProgram.imports loaded
+      imports = LoadedProgram.imports loaded,
+      part = snd <$> known,
+      path = Compile.path . fst <$> output result,
+      machines = maybe [] (\(_, made) -> foldr seq made made) (output result)
     }
   where
     source = LoadedProgram.source loaded
@@ -72,7 +89,7 @@ take check loaded =
     program = whole {statements = filter (isOwn . Region.start . Region.region) (statements whole)}
     isOwn offset = offset <= Text.length (Region.text source)
     known = case output result of
-      Just analysis -> Just (Compile.mentions analysis, Compile.part analysis)
+      Just (analysis, _) -> Just (Compile.mentions analysis, Compile.part analysis)
       Nothing -> first Checked.mentions <$> output (Compile.evaluate [] loaded)
 
 -- | True if the program has no errors. It may have warnings.

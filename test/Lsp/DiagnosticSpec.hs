@@ -12,10 +12,9 @@ import Lsp.Location qualified as Location
 import Lsp.Message (Outgoing (..))
 import Lsp.Talk (at, field)
 import Lsp.Uri (Uri (..))
-import Query.Mention qualified as Mention
-import Query.Snapshot (Snapshot (Snapshot))
+import Project.LoadedProgram qualified as LoadedProgram
+import Query.Snapshot qualified as Snapshot
 import Report.Report (Report, ReportPlace (..), Severity (..), report)
-import Surface.Syntax (Program (..))
 import Test.Hspec
 
 spec :: Spec
@@ -53,4 +52,9 @@ shown r =
         [(field "start" (field "range" d), field "message" d) | d <- foldMap pure ds]
     other -> error (show other)
   where
-    snapshot = Snapshot source [r] (Program [] []) Mention.none [(Region 3 4, "/tmp/ж.part")]
+    snapshot =
+      (Snapshot.take (Snapshot.checkWith []) (LoadedProgram.fromText "/tmp/a.part" ""))
+        { Snapshot.source = source,
+          Snapshot.reports = [r],
+          Snapshot.imports = [(Region 3 4, "/tmp/ж.part")]
+        }
