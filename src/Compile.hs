@@ -45,6 +45,7 @@ import Control.CompensationCheck qualified as CompensationCheck
 import Control.Monad (when)
 import Data.Text (Text)
 import Frame.Error qualified as Frame
+import Frame.Frame (FrameProgram)
 import Frame.Frame qualified as Frame
 import Frame.FromToolpath qualified as Frame
 import Machine.Machine (Machine)
@@ -114,16 +115,19 @@ plan (checked, part) = do
 -- | Runs all compiler passes up to the frames, for every machine of the job, and gives their errors
 -- and warnings. Makes no tape.
 check :: Job -> LoadedProgram -> Result Report Report Analysis
-check job loaded = checkEvaluated job (evaluate (values job) loaded)
+check job loaded = fst <$> checkEvaluated job (evaluate (values job) loaded)
 
--- | Continues 'check' after 'evaluate'. The result includes the errors and warnings of evaluation.
+-- | Continues 'check' after 'evaluate', and gives the frames for each machine too. The result
+-- includes the errors and warnings of evaluation.
 checkEvaluated ::
   Job ->
   Result Report Report (Checked.Program, Part) ->
-  Result Report Report Analysis
+  Result Report Report (Analysis, [(Machine, Frame.FrameProgram)])
 checkEvaluated Job {machinesFor} evaluated =
   (evaluated >>= plan) `thenSound` \analysis@Analysis {part, path} ->
-    analysis <$ (machinesFor part path >>= traverse (`punch` path))
+    (analysis,) <$> (machinesFor part path >>= traverse (made path))
+  where
+    made path machine = (machine,) . program <$> punch machine path
 
 -- | Makes the tapes one after the other. The toolpath is freed before the last tape is verified.
 makeTapes :: Verification -> Toolpath -> [Machine] -> Result Report Report [Compiled]
@@ -176,7 +180,7 @@ readerWarning machine Punched {program, tape} =
     frames = Tape.readInTurn machine begin tape
 
 -- | The frames of a toolpath for one machine, and the tape that contains these frames.
-data Punched = Punched {program :: Frame.FrameProgram, tape :: Tape}
+data Punched = Punched {program :: FrameProgram, tape :: Tape}
 
 -- | Makes the frames and the tape of a toolpath (Toolpath → Frame → Tape). The tape is lazy, so no
 -- row of it is made before it is needed. Refuses frames with cutter compensation that a control
@@ -198,7 +202,7 @@ punch machine path =
 -- | Runs the frames of a tape on the controller model and compares the motions with the part (Frame
 -- → Control → Verify). The errors of the result are the findings: all that the proof has found
 -- wrong. If there are none, the tape is proven. @toolpath@ may be reduced by 'withoutCuts'.
-prove :: Machine -> Toolpath -> Frame.FrameProgram -> [Frame.Frame] -> Result Report Report Proof
+prove :: Machine -> Toolpath -> FrameProgram -> [Frame.Frame] -> Result Report Report Proof
 prove machine toolpath program frames = failing (Proof.toReports machine proof) proof
   where
     proof = Verify.prove machine toolpath program frames

@@ -124,7 +124,7 @@ stageData =
     [ ("Report.Fix", []),
       ("Report.Report", ["Report.Fix"]),
       ("Surface.Syntax", ["Surface.Token"]),
-      ("Checked.Syntax", ["Checked.Dimension"]),
+      ("Checked.Syntax", ["Checked.Dimension", "Checked.Type"]),
       ("Part.Part", ["Part.Curve", "Part.Link"]),
       ("Sheet.Sheet", []),
       ("Toolpath.Toolpath", []),

@@ -78,13 +78,16 @@ isBevel (Located _ m) = case m of
 -- | Checks a modifier of an element. @columns@ are the columns that a bevel may name, with the
 -- types of their values.
 modifier ::
-  TypingEnvironment -> [(Text, Type)] -> Surface.Modifier -> Infer (Deferred Checked.Modifier)
+  TypingEnvironment ->
+  [(Located Text, Type)] ->
+  Surface.Modifier ->
+  Infer (Deferred Checked.Modifier)
 modifier env columns (Located at m) = fmap (Located at .) $ case m of
   Surface.ElementFeed e -> (Checked.ElementFeed .) <$> expect env Type.feed e
   Surface.Slow -> pure (const Checked.Slow)
   Surface.ElementAllowance e -> (Checked.ElementAllowance .) <$> expect env Type.len e
   Surface.Bevel e ->
-    (Checked.Bevel .) <$> Piece.withColumns (region e) columns (expect env Type.angle e)
+    (Checked.Bevel .) <$> Piece.withColumns columns (expect env Type.angle e)
 
 -- | Checks the link from an element to the next one.
 linkTo :: TypingEnvironment -> Surface.Link -> Infer (Deferred Checked.Link)

@@ -19,6 +19,7 @@ module Checked.Piece
 where
 
 import Base.Name (Name (..))
+import Base.Name qualified as Name
 import Base.NumberTable (NumberTable)
 import Base.NumberTable qualified as NumberTable
 import Base.Region (Located (..), Region)
@@ -29,6 +30,7 @@ import Checked.Error (Error (..))
 import Checked.Expression (TypingEnvironment, expect)
 import Checked.Inference (Infer)
 import Checked.Inference qualified as Inference
+import Checked.Scheme (Binding (..))
 import Checked.Syntax (Cells, Columns (..))
 import Checked.Syntax qualified as Checked
 import Checked.Type (Type)
@@ -55,6 +57,7 @@ table :: TypingEnvironment -> Located Name -> [Surface.TableLine] -> Infer (Type
 table env name written = case written of
   Located at (Surface.Header headings) : rows -> do
     columns <- traverse column (NonEmpty.toList headings)
+    mapM_ mentionColumn columns
     reportRepeated (map heading columns)
     mapM_ (reportConstant . heading) columns
     unless (hasColumn "x" columns) (Inference.mistake (ColumnMissing at (Name "x")))
@@ -85,6 +88,17 @@ column (Surface.Heading name unit) = case unit of
       Inference.monomorphic d
       pure (Column name (Type.Quantity d) Nothing)
 
+-- | Records the heading of a column, for editors. The columns x and y belong to the language.
+mentionColumn :: Column -> Infer ()
+mentionColumn Column {heading = Located at name@(Name text), kind}
+  | isCoordinate name =
+    Inference.mention
+      at
+      Nothing
+      text
+      (Inference.Described ("the " <> text <> " of the points of the table"))
+  | otherwise = Inference.mention at (Just at) text (Inference.Valued kind)
+
 isCoordinate :: Name -> Bool
 isCoordinate name = name `elem` [Name "x", Name "y"]
 
@@ -109,7 +123,7 @@ reportConstant (Located at name@(Name text)) =
 typeOfTable :: [Column] -> Type
 typeOfTable columns =
   Type.Table
-    (Type.Fields [(text, kind c) | c <- columns, let Name text = value (heading c), isExtra c])
+    (Type.Fields [(Name.text <$> heading c, kind c) | c <- columns, isExtra c])
 
 -- | Is a column neither x nor y?
 isExtra :: Column -> Bool
@@ -134,7 +148,7 @@ columnsAndRows columns rows sol =
 -- | The columns, besides x and y, that values along a curve of type @t@ may name, with the types of
 -- their cells. Empty if @t@ is not the type of a curve. 'Nothing' if inference does not know the
 -- columns, or if the curve is already reported as wrong.
-columnsOf :: Type -> Infer (Maybe [(Text, Type)])
+columnsOf :: Type -> Infer (Maybe [(Located Text, Type)])
 columnsOf t = do
   t' <- Inference.resolved t
   pure $ case t' of
@@ -143,10 +157,11 @@ columnsOf t = do
     Type.Wrong -> Nothing
     _ -> Just []
 
--- | Runs an inference in which the columns are local names. They hide names of the program. An
--- editor finds the region @at@ as the definition of every column.
-withColumns :: Region -> [(Text, Type)] -> Infer a -> Infer a
-withColumns at columns = Inference.withLocals [(Located at (Name text), t) | (text, t) <- columns]
+-- | Runs an inference in which the columns are local names. They hide names of the program.
+withColumns :: [(Located Text, Type)] -> Infer a -> Infer a
+withColumns columns infer = Inference.scoped (mapM_ bind columns *> infer)
+  where
+    bind (Located at text, t) = Inference.define (Name text) (Local at t)
 
 -- Rows
 
@@ -249,7 +264,7 @@ cellsOf order sizes rows sol = case rows of
 -- wrong number of values is reported, and also gives 'Nothing'.
 cipher ::
   TypingEnvironment ->
-  Maybe [(Text, Type)] ->
+  Maybe [(Located Text, Type)] ->
   Surface.Cipher ->
   Infer (Maybe (Deferred Checked.Cipher))
 cipher env known (Located at (Surface.Cipher (Located digitRegion digit) given)) =
@@ -268,7 +283,7 @@ cipher env known (Located at (Surface.Cipher (Located digitRegion digit) given))
 -- digit and this number of values.
 recalculation ::
   TypingEnvironment ->
-  [(Text, Type)] ->
+  [(Located Text, Type)] ->
   Text ->
   [Surface.Expr] ->
   Maybe (Infer (Deferred Checked.Cipher_))
@@ -304,26 +319,34 @@ recalculation env columns digit values = case (digit, values) of
 -- | Checks a length that is the same along the whole piece. It must not name a column. @digit@ is
 -- that of the cipher, for reports.
 constantLength ::
-  TypingEnvironment -> [(Text, Type)] -> Text -> Surface.Expr -> Infer (Deferred Checked.Expr)
+  TypingEnvironment ->
+  [(Located Text, Type)] ->
+  Text ->
+  Surface.Expr ->
+  Infer (Deferred Checked.Expr)
 constantLength env columns digit e =
-  case [(r, n) | (r, n) <- freeNames e, n `elem` map (Name . fst) columns] of
+  case [(r, n) | (r, n) <- freeNames e, n `elem` map (Name . value . fst) columns] of
     (r, n) : _ -> zero e <$ Inference.mistake (ColumnForWholePiece r digit n)
     [] -> expect env Type.len e
 
 -- | Checks a value of type @t@ that may vary along a curve. It may name the columns of the curve's
 -- table.
 valueAlong ::
-  TypingEnvironment -> [(Text, Type)] -> Type -> Surface.Expr -> Infer (Deferred Checked.Expr)
+  TypingEnvironment ->
+  [(Located Text, Type)] ->
+  Type ->
+  Surface.Expr ->
+  Infer (Deferred Checked.Expr)
 valueAlong env columns t e = do
   unknown <- catMaybes <$> traverse unknownName (freeNames e)
-  mapM_ (\(r, n) -> Inference.mistake (NoColumn r n (map fst columns))) unknown
+  mapM_ (\(r, n) -> Inference.mistake (NoColumn r n (map (value . fst) columns))) unknown
   if null unknown
-    then withColumns (region e) columns (expect env t e)
+    then withColumns columns (expect env t e)
     else pure (zero e)
   where
     unknownName (r, n@(Name text)) = do
       binding <- Inference.find n
-      let isKnown = text `elem` map fst columns || isJust (Builtin.lookup text)
+      let isKnown = text `elem` map (value . fst) columns || isJust (Builtin.lookup text)
       pure (if isNothing binding && not isKnown then Just (r, n) else Nothing)
 
 -- | A term that takes the place of a value that is reported as wrong.

@@ -6,6 +6,7 @@
 module Checked.Syntax
   ( Program (..),
     Mention (..),
+    MentionType (..),
     Statement,
     Statement_ (..),
     Cutter,
@@ -54,6 +55,7 @@ import Base.Name (Name)
 import Base.NumberTable (NumberTable)
 import Base.Region (Located, Region)
 import Checked.Dimension (Dimension)
+import Checked.Type (Type)
 import Data.List.NonEmpty (NonEmpty)
 import Data.Text (Text)
 import Surface.Syntax
@@ -85,7 +87,24 @@ data Program = Program
 
 -- | A name where it is defined or used. 'definition' is the region of its definition, or 'Nothing'
 -- for a built-in name. 'meaning' describes the name in words, for editors.
-data Mention = Mention {place :: Region, definition :: Maybe Region, word :: Text, meaning :: Text}
+data Mention = Mention
+  { place :: Region,
+    definition :: Maybe Region,
+    word :: Text,
+    meaning :: Text,
+    typing :: MentionType
+  }
+  deriving stock (Eq, Show)
+
+-- | The type of a mentioned name. In it, every type and dimension that inference has not found is
+-- the unknown with the number 0.
+data MentionType
+  = -- | a value: its type
+    OfValue Type
+  | -- | a function of the program: its parameters with their types, and the type of its result
+    OfFunction [(Text, Type)] Type
+  | -- | a name without a type: a name of the language, or the name of the part
+    Untyped
   deriving stock (Eq, Show)
 
 -- | A statement of the checked program, with its region.

@@ -20,6 +20,7 @@ module Checked.Type
   )
 where
 
+import Base.Region (Located (..))
 import Checked.Dimension (Atom (..), Dimension)
 import Checked.Dimension qualified as Dimension
 import Data.Text (Text)
@@ -48,8 +49,9 @@ data Type
   | -- | a curve, with the 'Fields' of the table through which it passes or an unknown in their
     -- place
     Curve Type
-  | -- | the columns of a table besides x and y: their names and the types of their cells
-    Fields [(Text, Type)]
+  | -- | the columns of a table besides x and y: their names in the heading, and the types of their
+    -- cells
+    Fields [(Located Text, Type)]
   | -- | an unknown type, by its number
     Variable Int
   | -- | the type of a term that is already reported as wrong; it fits every type, so that no
@@ -135,7 +137,7 @@ describe t = case t of
 -- if there are no columns, or if @t@ is an unknown.
 withColumns :: Type -> Text
 withColumns t = case t of
-  Fields columns@(_ : _) -> " with " <> Text.intercalate ", " (map fst columns)
+  Fields columns@(_ : _) -> " with " <> Text.intercalate ", " (map (value . fst) columns)
   _ -> ""
 
 -- | The description of several values of a type, without an article, such as "lengths".

@@ -13,7 +13,7 @@ where
 import Base.Decimal qualified as Decimal
 import Base.LazyList qualified as LazyList
 import Base.Name (Name (..))
-import Base.Quantity (Feed (..), Mm (..), Rad (..), Seconds (..), minus, times, total, travelTime)
+import Base.Quantity (Mm (..), Rad (..), Seconds (..), minus, times, total)
 import Base.Region (Located (..))
 import Cli.CurveTable qualified as CurveTable
 import Cli.RestMaterialTable qualified as RestMaterialTable
@@ -25,19 +25,19 @@ import Data.List.NonEmpty (NonEmpty)
 import Data.List.NonEmpty qualified as NonEmpty
 import Data.Text (Text)
 import Data.Text qualified as Text
-import Frame.FeedCode qualified as FeedCode
 import Frame.Frame qualified as Frame
+import Frame.MoveTime (moveLength, moveTime)
 import Geometry.Segment (Segment (..))
 import Geometry.Segment qualified as Segment
 import Geometry.Vec qualified as Vec
 import Machine.Machine (Machine)
-import Part.Part (Drilling, Milling, Pace (..), Part)
+import Part.Part (Drilling, Milling, Part)
 import Part.Part qualified as Part
 import Pulse.Controller qualified as Controller
 import Pulse.ControllerRun (StopReason (..))
 import Pulse.RunMeasure (RunTotal (..))
 import Tape.Tape qualified as Tape
-import Toolpath.Toolpath (Block (..), Move (..), Pass (..), Toolpath, heights, pace)
+import Toolpath.Toolpath (Block (..), Move (..), Pass (..), Toolpath)
 import Toolpath.Toolpath qualified as Toolpath
 
 -- | The tables of a part: curves, contours, pockets, holes, rest material, sums. Times are
@@ -261,28 +261,6 @@ tapeRows machine Punched {program, tape} =
     <> [["tape", Decimal.fixed 2 metres, "m"] | Just metres <- [Tape.metres machine tape]]
 
 -- Moves -------------------------------------------------------------------------------------------
-
--- | The time of a move at the feed of the machine; without a machine, at the feed of the program.
--- A rapid move counts as 0 s if its speed is unknown. That is the case without a machine, and if
--- the description of the machine gives none.
-moveTime :: Maybe Machine -> Move -> Seconds
-moveTime machine move = maybe (Seconds 0) (travelTime (moveLength move)) (feedOf (pace move))
-  where
-    feedOf p = case (p, machine) of
-      (Rapid, Nothing) -> Nothing
-      (Rapid, Just m) -> case FeedCode.rapidFeed m of
-        Feed 0 -> Nothing
-        feed -> Just feed
-      (At (Located _ feed), Nothing) -> Just feed
-      (At (Located _ feed), Just m) -> Just (FeedCode.expectedFeed m feed)
-
--- | The length of a move in space: the hypotenuse of its length in the plane and its change of
--- height.
-moveLength :: Move -> Mm
-moveLength move =
-  let Mm l = Segment.length (segment move)
-      (Mm a, Mm b) = heights move
-   in Mm (sqrt (l * l + (b - a) * (b - a)))
 
 fixed3 :: Mm -> Text
 fixed3 (Mm x) = Decimal.fixed 3 x

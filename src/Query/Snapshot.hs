@@ -32,11 +32,14 @@ import Part.Part (Part)
 import Project.Job qualified as Job
 import Project.LoadedProgram (LoadedProgram)
 import Project.LoadedProgram qualified as LoadedProgram
+import Query.Machining (MachineSummary)
+import Query.Machining qualified as Machining
 import Query.Mention (Mentions)
 import Query.Mention qualified as Mention
 import Report.Report (Report)
 import Report.Report qualified as Report
 import Surface.Syntax (Program (..))
+import Toolpath.Toolpath (Toolpath)
 import Prelude hiding (take)
 
 -- | A function that checks a loaded program in two stages. Editors and the command line use the
@@ -48,7 +51,7 @@ data Stages = Stages
   { -- | form, names, types and geometry
     evaluated :: Result Report Report (Checked.Program, Part),
     -- | the same, continued with the toolpath and the frames; it is computed on demand
-    whole :: ~(Result Report Report Analysis)
+    whole :: ~(Result Report Report (Analysis, [MachineSummary]))
   }
 
 -- | Checks a program with all compiler passes up to the frames. The frames are those for the
@@ -56,9 +59,14 @@ data Stages = Stages
 -- a value, which replaces the value of the parameter in the program.
 checkWith :: [(Text, Text)] -> Check
 checkWith values loaded =
-  Stages {evaluated, whole = Compile.checkEvaluated (Job.forOwnMachine values loaded) evaluated}
+  Stages
+    { evaluated,
+      whole = summarised <$> Compile.checkEvaluated (Job.forOwnMachine values loaded) evaluated
+    }
   where
     evaluated = Compile.evaluate values loaded
+    summarised (analysis, made) =
+      (analysis, [Machining.summary (Compile.path analysis) m program | (m, program) <- made])
 
 -- | A program at one moment, with the results of its check.
 data Snapshot = Snapshot
@@ -76,7 +84,13 @@ data Snapshot = Snapshot
     -- the file
     imports :: [(Region, Text)],
     -- | the paths of all files on which the results depend, apart from the program's own
-    dependencies :: [Text]
+    dependencies :: [Text],
+    -- | the evaluated part; absent if nothing of the program could be checked
+    part :: Maybe Part,
+    -- | the toolpath; absent if the program has an error before this stage
+    path :: Maybe Toolpath,
+    -- | the program on the machine that it names; empty if it names none, or has an error
+    machines :: [MachineSummary]
   }
 
 -- | The snapshot of a text that is not analysed: it has no results.
@@ -89,7 +103,10 @@ unanalysed source =
       program = Program [] [],
       facts = Mention.none,
       imports = [],
-      dependencies = []
+      dependencies = [],
+      part = Nothing,
+      path = Nothing,
+      machines = []
     }
 
 -- | Checks a program, and keeps the results of all passes as a snapshot.
@@ -111,9 +128,18 @@ inStages check loaded = (early, complete)
           program = written {statements = filter isOwn (statements written)},
           facts = Mention.facts (first Checked.mentions <$> output evaluated),
           imports = LoadedProgram.imports loaded,
-          dependencies = LoadedProgram.files loaded
+          dependencies = LoadedProgram.files loaded,
+          part = snd <$> output evaluated,
+          path = Nothing,
+          machines = []
         }
-    complete = early {reports = Report.sorted (both whole), laterReports = Report.sorted later}
+    complete =
+      early
+        { reports = Report.sorted (both whole),
+          laterReports = Report.sorted later,
+          path = Compile.path . fst <$> output whole,
+          machines = foldMap (\(_, made) -> foldr seq made made) (output whole)
+        }
     later =
       drop (length (errors evaluated)) (errors whole)
         <> drop (length (warnings evaluated)) (warnings whole)

@@ -35,6 +35,11 @@ spec = do
     it "leads into the list of a repetition" $
       defined "contour k closed {\n  for a in [1] {\n    cw circle((^a, 0), 1)\n  }\n}\n"
         `shouldBe` Just "a@25"
+    it "leads from a name in a cipher to the heading of its column" $ do
+      let table = "table t {\n  x y mu deg H\n  0 0 5 9\n  9 0 6 9\n}\n"
+          piece = "curve k = polyline(t)\npiece w = k cipher 4(^mu, H) left\n"
+      defined (table <> piece) `shouldBe` Just "mu@16"
+      hovered (table <> piece) `shouldBe` Just ("mu", Nothing)
     it "has no answer for names of the language" $
       defined "let b = ^pi\n" `shouldBe` Nothing
   describe "while the text is broken" $ do

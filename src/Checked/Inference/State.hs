@@ -54,7 +54,7 @@ import Checked.Dimension (Dimension)
 import Checked.Dimension qualified as Dimension
 import Checked.Error (Error (..))
 import Checked.Scheme (Binding (..), DeferredConstraint, Meaning (..), Scheme (..))
-import Checked.Syntax (Mention (Mention))
+import Checked.Syntax (Mention (..), MentionType (..))
 import Checked.Type (Type (..))
 import Checked.Type qualified as Type
 import Control.Monad (unless, when, zipWithM)
@@ -120,7 +120,13 @@ run infer = case runState infer start of
     )
   where
     described final (region, definition, word, meaning) =
-      Mention region definition word (describe final meaning)
+      Mention
+        { place = region,
+          definition,
+          word,
+          meaning = describe final meaning,
+          typing = typeOf final meaning
+        }
     start =
       InferenceState
         { nextUnknown = 0,
@@ -148,6 +154,17 @@ describe state meaning = case meaning of
   where
     typeWords t = Type.describe (resolve state t)
     parameter name t = name <> ": " <> typeWords t
+
+-- | The resolved type of a meaning, in which every undecided unknown has the number 0.
+typeOf :: InferenceState -> Meaning -> MentionType
+typeOf state meaning = case meaning of
+  Valued t -> OfValue (known t)
+  Callable names Scheme {parameters, result} ->
+    OfFunction (zip names (map known parameters)) (known result)
+  Described _ -> Untyped
+  where
+    known = Type.substitute ofDimension (const (Variable 0)) . resolve state
+    ofDimension d = if Dimension.isKnown d then d else Dimension.atom (Dimension.Unknown 0)
 
 -- Mistakes
 
@@ -313,7 +330,8 @@ unify region a b = do
     (Table c, Table d) -> unify region c d
     (Curve c, Curve d) -> unify region c d
     (Fields cs, Fields ds)
-      | map fst cs == map fst ds -> and <$> zipWithM (\(_, c) (_, d) -> unify region c d) cs ds
+      | map (value . fst) cs == map (value . fst) ds ->
+        and <$> zipWithM (\(_, c) (_, d) -> unify region c d) cs ds
     _ -> pure (a' == b')
   where
     -- If an unknown occurred in its own value, its type would be infinite.
