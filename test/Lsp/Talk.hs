@@ -84,9 +84,9 @@ runningWith capabilities =
     { sent = []
     }
 
--- | The same conversation with a slow worker.
+-- | The same conversation with a slow worker. Earlier messages are dropped.
 slow :: Talk -> Talk
-slow talk = talk {isSlow = True}
+slow talk = talk {isSlow = True, sent = []}
 
 -- | Sends a message from the client.
 say :: Incoming -> Talk -> Talk
@@ -129,7 +129,9 @@ finishEvaluation talk = case begun talk of
 
 evaluateOnly :: Snapshot -> WorkOrder -> Talk -> Talk
 evaluateOnly early work talk =
-  (happen (Worked (number work) (EvaluationChecked early)) (slow talk)) {isSlow = isSlow talk}
+  (happen (Worked (number work) (EvaluationChecked early)) talk {isSlow = True})
+    { isSlow = isSlow talk
+    }
 
 -- | The snapshots of a document. Imports find only open documents.
 analysed :: Session -> WorkOrder -> (Snapshot, Snapshot)
