@@ -50,7 +50,8 @@ spec = do
       outcomes (say (Request (Number 9) "shutdown" Null) talk)
         `shouldBe` [(Number 1, Just ContentModified), (Number 9, Nothing)]
     it "that is no request is refused under its own identifier, if it has one" $ do
-      let refused body = [i | Send (Refusal i _) <- heard (say (Message.decode body) (slow settledRight))]
+      let talkAfter body = say (Message.decode body) (slow settledRight)
+          refused body = [ident | Send (Refusal ident _) <- heard (talkAfter body)]
       map refused ["{\"id\":3}", "{\"id\":\"x\",\"method\":5}", "{\"method\":5}", "["]
         `shouldBe` [[Number 3], [String "x"], [Null], [Null]]
   describe "an analysis" $ do
@@ -67,7 +68,7 @@ spec = do
           talk = pause 30 (replace addressOf 2 wrong (slow both))
           later = pause 30 (replace other 2 (wrong <> "\n") talk)
       analyses later `shouldBe` [(Analysis, wrong), (Analysis, wrong <> "\n")]
-      analyses (finish later) `shouldBe` [(Analysis, wrong), (Analysis, wrong <> "\n"), (Analysis, wrong)]
+      map snd (analyses (finish later)) `shouldBe` [wrong, wrong <> "\n", wrong]
     it "that takes longer than a second shows its progress, which ends with it" $ do
       let talk = pause 1000 (replace addressOf 2 wrong (slow (capable settledRight)))
           kinds t = [field "kind" (field "value" p) | Send (Notify "$/progress" p) <- heard t]
@@ -80,7 +81,10 @@ spec = do
           cancel = Notification "window/workDoneProgress/cancel"
           stopped = foldl (\t token -> say (cancel (object ["token" .= token])) t) talk tokens
       map (\(_, _, found) -> map message found) (everyPublished stopped)
-        `shouldBe` [["The analysis was stopped. Later mistakes are missing here. partc check has no limit."]]
+        `shouldBe` [ [ "The analysis was stopped. Later mistakes are missing here. partc check has no \
+                       \limit."
+                     ]
+                   ]
       drop 1 (orders stopped) `shouldBe` [Nothing]
     it "is stopped after a minute" $ do
       let talk = pause 60030 (replace addressOf 2 wrong (slow settledRight))
@@ -89,7 +93,9 @@ spec = do
     it "after evaluation keep the later ones of the last text, moved with the text" $ do
       let settled = pause 0 (open addressOf 1 wrongSide ready)
           talk = pause 30 (replace addressOf 2 ("-- first\n" <> wrongSide) (slow settled))
-          shown t = map (\(_, _, found) -> [(code s, fst (from s)) | s <- found, code s == "E0401"]) (everyPublished t)
+          shown t = [map place (filter isLate found) | (_, _, found) <- everyPublished t]
+          place s = (code s, fst (from s))
+          isLate s = code s == "E0401"
       shown settled `shouldBe` [[], [("E0401", 7)]]
       shown (finishEvaluation talk) `shouldBe` [[("E0401", 8)]]
       shown (finish talk) `shouldBe` [[("E0401", 8)], [("E0401", 8)]]
@@ -101,8 +107,9 @@ spec = do
     it "of a machine description are those of its reader" $ do
       let talk = pause 0 (open "file:///tmp/m.machine" 1 "nonsense\n" ready)
       map (\(_, _, found) -> null found) (published talk) `shouldBe` [False]
-    it "are settled once for each analysis" $
-      [field "version" p | Send (Notify "partc/settled" p) <- heard (pause 30 (replace addressOf 2 wrong settledRight))]
+    it "are settled once for each analysis" $ do
+      let talk = pause 30 (replace addressOf 2 wrong settledRight)
+      [field "version" p | Send (Notify "partc/settled" p) <- heard talk]
         `shouldBe` [Number 1, Number 2]
   describe "a tape" $ do
     it "is proven in idle time, and not while the text changes" $ do
