@@ -90,7 +90,6 @@ sanctioned =
           "Control.Exception",
           "System.Exit",
           "System.IO",
-          "System.Mem",
           "System.Posix.Process",
           "System.Timeout"
         ]

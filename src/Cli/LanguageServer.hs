@@ -9,7 +9,6 @@ import Cli.InputFile (identity, readContents, readerFrom)
 import Cli.Output (Exit (..), Reporter)
 import Cli.Output qualified as Output
 import Compile qualified
-import Control.Concurrent (setNumCapabilities)
 import Data.Map.Strict (Map)
 import Data.Map.Strict qualified as Map
 import Data.Maybe qualified as Maybe
@@ -22,14 +21,14 @@ import Project.Job qualified as Job
 import Project.LoadedProgram (LoadedProgram)
 import Project.LoadedProgram qualified as LoadedProgram
 import Query.Snapshot qualified as Snapshot
+import System.Exit (ExitCode (..))
 import System.IO (stdin, stdout)
+import System.Posix.Process (exitImmediately)
 
 -- | Serves an editor until it ends the conversation. The texts of documents that are open in the
 -- editor take precedence over their files on the disk.
 serve :: Reporter -> IO Exit
 serve reporter = do
-  -- The messages have a core of their own while the other one analyses a text.
-  setNumCapabilities 2
   ending <-
     Server.serve
       Host
@@ -40,9 +39,11 @@ serve reporter = do
           prove = \loaded ->
             Maybe.isJust (Result.ifSound (Compile.compile (Job.forOwnMachine values loaded) loaded))
         }
-  pure $ case ending of
-    Orderly -> Done
-    Abrupt -> Failed
+  -- An orderly end of the run-time system would collect the garbage of a large analysis first.
+  exitImmediately $ case ending of
+    Orderly -> ExitSuccess
+    Abrupt -> ExitFailure 1
+  pure Done
   where
     values = Output.values (Output.settings reporter)
 

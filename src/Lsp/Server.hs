@@ -32,7 +32,7 @@ import Control.Exception
     throwIO,
     try,
   )
-import Control.Monad (unless, void, when)
+import Control.Monad (unless, void)
 import Data.ByteString (ByteString)
 import Data.ByteString qualified as ByteString
 import Data.Maybe qualified as Maybe
@@ -52,7 +52,6 @@ import Query.Snapshot (Check)
 import Query.Snapshot qualified as Snapshot
 import System.Exit (ExitCode (..))
 import System.IO (Handle, hFlush, hSetBinaryMode)
-import System.Mem (performMajorGC)
 import System.Posix.Process (exitImmediately)
 import System.Timeout (timeout)
 
@@ -150,7 +149,6 @@ converse between worker session = do
     Just event -> do
       (session', effects) <- handled now event session
       (worker', ending) <- performAll between session' worker effects
-      collected event
       maybe (converse between worker' session') pure ending
 
 -- | The next event; nothing at the end of a stream. While the worker has work, its use of memory is
@@ -192,17 +190,6 @@ memoryInUse = do
   if isKnown
     then fromIntegral . Stats.gcdetails_mem_in_use_bytes . Stats.gc <$> Stats.getRTSStats
     else pure 0
-
--- | Collects garbage after work that has left much of it, while the user reads its results.
-collected :: Event -> IO ()
-collected event = case event of
-  Worked _ (EvaluationChecked _) -> pure ()
-  Worked _ _ -> do
-    memory <- memoryInUse
-    when (memory > comfortable) performMajorGC
-  _ -> pure ()
-  where
-    comfortable = 50000000
 
 -- | The milliseconds from @now@ to @time@, or 0 if @time@ is earlier.
 after :: Milliseconds -> Milliseconds -> Int
