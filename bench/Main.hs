@@ -45,6 +45,7 @@ run page folder options = do
     let notes = if null broken then ["Nothing differs."] else map ("- " <>) broken
     place "differences" (Text.unlines notes)
   when ("stages" `elem` parts) $ Whole.staged tools most seconds >>= place "stages"
+  when ("mills" `elem` parts) $ Whole.doubled tools >>= place "mills"
   when ("controllers" `elem` parts) $
     Peer.command 600 [option "pulses" "pulses"] >>= either (die . Text.unpack) (place "controllers")
   forM_ (lookup "before" options) $ \earlier -> do
@@ -55,7 +56,7 @@ run page folder options = do
       >>= place "whole"
   where
     option name otherwise' = fromMaybe otherwise' (lookup name options)
-    parts = words (option "parts" "kernel stages controllers whole")
+    parts = words (option "parts" "kernel stages mills controllers whole")
     most = fromMaybe 1000000 (readMaybe (option "most" ""))
     seconds = fromMaybe 20 (readMaybe (option "seconds" "")) :: Double
     place :: Text -> Text -> IO ()

@@ -9,6 +9,7 @@ module Programs
 where
 
 import Base.Decimal qualified as Decimal
+import Data.List (nub)
 import Data.Text (Text)
 import Data.Text qualified as Text
 import Noise qualified
@@ -44,6 +45,10 @@ data Kind
     Comb
   | -- | a square pocket with as many round islands
     Islands
+  | -- | as many @mill@ statements of one spline contour
+    OneContour
+  | -- | as many spline contours, each around the one before, with a @mill@ statement for each
+    Nested
   deriving stock (Eq, Show, Read, Enum, Bounded)
 
 -- | The name of a kind in the tables.
@@ -61,14 +66,17 @@ name kind = case kind of
   RoundPocket -> "round pocket"
   Comb -> "comb"
   Islands -> "islands"
+  OneContour -> "one contour"
+  Nested -> "nested contours"
 
 -- | The largest number of elements. With ten times as many, the program would need more than a
 -- million frames or ten thousand passes, or coordinates beyond the largest one, or pockets that
--- take minutes; programs written by hand are smaller.
+-- take minutes; programs written by hand are smaller. The last two kinds have a table of their own.
 most :: Kind -> Int
 most kind
   | kind `elem` [Rows, Wavy, LinesFile] = 1000000
   | kind `elem` [RoundPocket, Comb, Islands] = 10000
+  | kind `elem` [OneContour, Nested] = 64
   | otherwise = 100000
 
 -- | The text of a program, and the files that it reads, by their names.
@@ -97,6 +105,8 @@ written kind n = case kind of
   RoundPocket -> Written (roundPocket n) []
   Comb -> Written (comb n) []
   Islands -> Written (islands n) []
+  OneContour -> Written (mills (replicate n 0)) []
+  Nested -> Written (mills [0 .. n - 1]) []
   where
     cornered side more =
       Written
@@ -194,6 +204,29 @@ islands n =
         [ "contour i" <> Decimal.whole k <> " closed { ccw circle((",
           coordinate (3 * fromIntegral column + 1.5) <> ", ",
           coordinate (3 * fromIntegral row + 1.5) <> "), 0.5) }"
+        ]
+
+-- | A @mill@ statement for each number k of the list: of the spline contour through 100 rows at
+-- about @100 + 10·k@ mm from the origin.
+mills :: [Int] -> Text
+mills numbers =
+  header "mills" 6 (fromIntegral (10 * maximum numbers + 140))
+    <> "clearance 5 mm\n"
+    <> Text.unlines (concatMap contour (nub numbers) <> map mill numbers)
+  where
+    contour k =
+      ["table t" <> Decimal.whole k <> " {", "x y"]
+        <> rows " " 100 (2 + 0.2 * fromIntegral k) 0
+        <> [ "}",
+             Text.replace
+               "#"
+               (Decimal.whole k)
+               "curve s# = closed_spline(t#)\ncontour c# closed { s# }"
+           ]
+    mill k =
+      Text.concat
+        [ "mill c" <> Decimal.whole k <> " outside { depth 1 mm  start near (",
+          Decimal.whole (10 * k + 100) <> ", 0) }"
         ]
 
 -- | A point with whole coordinates in mm.

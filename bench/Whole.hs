@@ -3,6 +3,7 @@
 module Whole
   ( Tools (..),
     staged,
+    doubled,
     besideBefore,
     besideInterpreter,
   )
@@ -42,7 +43,9 @@ data Staged = Staged {stages :: [(Text, Double)], peak :: Double}
 staged :: Tools -> Int -> Double -> IO Text
 staged tools most allowed =
   Table.table (["program", "machine", "size"] <> names <> ["sum", "µs per element", "MB"]) . concat
-    <$> forM [(k, m) | k <- [minBound ..], m <- ["lkp-01f", "iso6983"]] (ofKind tools most allowed)
+    <$> forM
+      [(k, m) | k <- [minBound ..], Programs.most k >= 100, m <- ["lkp-01f", "iso6983"]]
+      (ofKind tools most allowed)
   where
     names = ["parse", "check", "part", "path", "frames", "tape", "verify"]
 
@@ -150,6 +153,32 @@ parsed out = do
       [name, value] -> (name,) <$> readMaybe (Text.unpack value)
       _ -> Nothing
 
+-- | The toolpath stage of 16, 32 and 64 statements that mill spline contours: the medians of five
+-- runs, the ratio to the time of half as many statements, and the time of all stages.
+doubled :: Tools -> IO Text
+doubled tools =
+  Table.table ["program", "statements", "path", "of half as many", "sum"] . concat
+    <$> mapM rowsOf [OneContour, Nested]
+  where
+    rowsOf kind = do
+      turns' <- mapM (const (mapM (run kind) [16, 32, 64])) [1 .. 5 :: Int]
+      let medians = fmap middles . sequence <$> transpose turns'
+          halves = Left "" : medians
+      pure (zipWith3 (row kind) [16, 32, 64] halves medians)
+    row :: Kind -> Int -> Either Text Staged -> Either Text Staged -> Table.Row
+    row kind n half outcome =
+      [Programs.name kind, Decimal.whole n] <> case outcome of
+        Left why -> [Text.take 80 why, "", ""]
+        Right s ->
+          [ Table.number (path s),
+            either (const "") (\h -> Decimal.fixed 2 (path s / path h)) half,
+            Table.number (total s)
+          ]
+    path s = sum [t | ("path", t) <- stages s]
+    run :: Kind -> Int -> IO (Either Text Staged)
+    run kind n =
+      (>>= parsed) <$> Peer.command 300 [timer tools, show kind, show n, "lkp-01f"]
+
 -- The state before -------------------------------------------------------------------------------
 
 -- | The stages of this build in ratio to those of a build of an earlier state. In each of eleven
@@ -165,7 +194,7 @@ besideBefore tools before most =
       [ rowsOf kind machine n
         | kind <- [minBound ..],
           machine <- ["lkp-01f", "iso6983"],
-          n <- takeWhile (<= most) [1000, 10000]
+          n <- takeWhile (<= min most (Programs.most kind)) [1000, 10000]
       ]
   where
     ratioNames = ["parse", "check", "part", "path", "frames", "tape", "verify", "sum", "memory"]

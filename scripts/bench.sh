@@ -6,7 +6,7 @@
 # A second argument is the folder in which an earlier state was built. Then the kernels and the stages
 # of both states take turns, there are no other peers, and the tables go to build/bench/before.md.
 #
-# PARTC_BENCH_MOST=10000 leaves out larger inputs. PARTC_BENCH_PARTS='kernel stages controllers whole' chooses
+# PARTC_BENCH_MOST=10000 leaves out larger inputs. PARTC_BENCH_PARTS='kernel stages mills controllers whole' chooses
 # the parts. PARTC_BENCH_SECONDS is the largest expected time, in seconds, of a run of the stages.
 set -euo pipefail
 
@@ -52,7 +52,7 @@ options=(
   "pulses=$dist/build/pulses/pulses"
   "partc=$dist/build/partc/partc"
   "cost=python3 $root/bench/peers/cost.py"
-  "parts=${PARTC_BENCH_PARTS:-kernel stages controllers whole}"
+  "parts=${PARTC_BENCH_PARTS:-kernel stages mills controllers whole}"
   "most=${PARTC_BENCH_MOST:-1000000}"
   "seconds=${PARTC_BENCH_SECONDS:-20}"
 )

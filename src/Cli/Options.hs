@@ -35,8 +35,8 @@ data Invocation = Invocation {settings :: OutputSettings, command :: Subcommand}
 -- standard output. Comments on constructors say where this differs.
 data Subcommand
   = Compile CompileOptions
-  | -- | the programs
-    Check (NonEmpty FilePath)
+  | -- | names or files of machines, or none for the machine that each program names; the programs
+    Check [Text] (NonEmpty FilePath)
   | -- | the program, the machine, the file of the tape; without a file, the tape that the compiler
     -- makes of the program is proven; true to prove the pulses of the controller, too
     Verify FilePath (Maybe Text) (Maybe FilePath) Bool
@@ -142,8 +142,8 @@ commands =
       entry
         "check"
         "Look for mistakes only"
-        "partc check flange.part"
-        (Check . NonEmpty.fromList <$> some program),
+        "partc check flange.part -t lkp-01f"
+        (Check <$> many target <*> (NonEmpty.fromList <$> some program)),
       entry
         "verify"
         "Prove a tape against its program"

@@ -81,7 +81,7 @@ showHelp text = Output.reporting Output.defaultSettings (`printResult` (Text.pac
 perform :: Reporter -> Subcommand -> IO Exit
 perform reporter command = case command of
   Compile options -> compile reporter options
-  Check files -> maximum <$> traverse (check reporter) (NonEmpty.toList files)
+  Check targets files -> maximum <$> traverse (check reporter targets) (NonEmpty.toList files)
   Verify file target tape withPulses -> verify reporter file target tape withPulses
   Frames file target asJson -> frames reporter file target asJson
   Report file target -> report reporter file target
@@ -121,12 +121,16 @@ compile reporter options = withInput reporter (file options) (targets options) $
     withWarning tapes =
       tapes <$ Result.warned [Cli.warningReport Unproven | unproven options, _ <- tapes]
 
--- | Reports the mistakes of a program, including frames that the machine named in the program
--- cannot execute. It makes no tape.
-check :: Reporter -> FilePath -> IO Exit
-check reporter file = withInput reporter file [] $ \given ->
-  let checked = Snapshot.whole (Snapshot.checkWith (values given) (loaded given))
-   in settled reporter given checked (const (pure Done))
+-- | Reports the mistakes of a program, including frames that a machine cannot execute. The machines
+-- are those of the names or files @targets@, or else the one that the program names, if it names
+-- one. It makes no tape.
+check :: Reporter -> [Text] -> FilePath -> IO Exit
+check reporter targets file = withInput reporter file targets $ \given ->
+  settled reporter given (checked given) (const (pure Done))
+  where
+    checked given = case targets of
+      [] -> fst <$> Snapshot.whole (Snapshot.checkWith (values given) (loaded given))
+      _ -> Compile.check (jobFor targets given) (loaded given)
 
 -- | Proves the tape in @tapeFile@ against the program in @file@. Without @tapeFile@ it proves the
 -- tape that the compiler makes of the program. If @withPulses@ is true, it also proves the pulses

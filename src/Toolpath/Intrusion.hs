@@ -13,37 +13,32 @@ where
 import Base.Quantity (Mm (..), minus, plus, times)
 import Base.Region (Located (..), Region (..))
 import Data.Function (on)
-import Data.List (foldl', groupBy, minimumBy, nubBy, sortOn)
-import Data.List.NonEmpty (NonEmpty (..))
+import Data.List (groupBy, minimumBy, nubBy, sortOn)
 import Data.List.NonEmpty qualified as NonEmpty
 import Data.Map.Strict qualified as Map
 import Data.Maybe (mapMaybe)
 import Data.Ord (comparing)
+import Data.Set qualified as Set
 import Geometry.Distance (ClosestPoint (..))
 import Geometry.Distance qualified as Distance
 import Geometry.Index.BoundingBox qualified as BoundingBox
-import Geometry.Index.BoxTree (BoxTree)
-import Geometry.Index.BoxTree qualified as BoxTree
 import Geometry.Segment (Segment (Arc, Straight))
 import Geometry.Segment qualified as Segment
 import Geometry.Tolerance qualified as Tolerance
 import Geometry.Vec qualified as Vec
 import Offset.Tolerance qualified as Tolerance
-import Part.Part
-  ( Contour (elements),
-    Milling (contour, radius, side),
-    Side (..),
-  )
+import Part.Part (Accuracy, Milling (contour, radius))
 import Part.Part qualified as Part
 import Toolpath.Error (Error (..), Intrusion (..))
 import Toolpath.LinkingMove qualified as LinkingMove
 import Toolpath.MillingSide (keyword, leadingSide)
 import Toolpath.PointedIntrusion (PointedIntrusion (PointedIntrusion))
 import Toolpath.PointedIntrusion qualified as PointedIntrusion
-import Toolpath.Swivel qualified as Swivel
 import Toolpath.Tolerance qualified as PathTolerance
 import Toolpath.Toolpath (Block (..), Move, Pass (..), Toolpath)
 import Toolpath.Toolpath qualified as Toolpath
+import Toolpath.Wall (WallIndex)
+import Toolpath.Wall qualified as Wall
 
 -- | The intrusions of a toolpath that are deeper than the tolerance of the statement that machines
 -- the contour. A region of the program may ask for several moves that intrude; it gets one error,
@@ -51,7 +46,7 @@ import Toolpath.Toolpath qualified as Toolpath
 intrusions :: Toolpath -> [Error]
 intrusions path = worst (concatMap (intrusionsOfBlock machined) (Toolpath.blocks path))
   where
-    machined = machinedOf (Toolpath.blocks path)
+    machined = Wall.index (Toolpath.blocks path)
     worst errors =
       map
         (minimumBy (comparing depth))
@@ -70,72 +65,6 @@ depth e = case e of
   MillsAnother _ _ _ (Mm d) _ -> -d
   _ -> 0
 
--- | All machined contours of a program.
-data Machined = Machined
-  { index :: BoxTree Wall,
-    -- | the height above which a move cuts nothing; the top of the part is 0
-    top :: Mm,
-    -- | the numbers of all milling and pocket statements that have a contour to machine
-    statements :: [Int]
-  }
-
--- | The contours of one milling or pocket statement.
-data Wall = Wall
-  { -- | number of the statement
-    statement :: Int,
-    milling :: Milling,
-    -- | one bounding box for each 'groupSize' consecutive elements. The list at a box begins with
-    -- these elements; the rest of the list is the rest of the contour, and is ignored. Such lists
-    -- share their memory. A box for each element would take more memory than the element
-    groups :: BoxTree (NonEmpty Part.Element)
-  }
-
--- | The largest number of elements in one bounding box.
-groupSize :: Int
-groupSize = 16
-
--- | Collects the machined contours. The passes of a statement have the same contours, and the first
--- pass represents them.
-machinedOf :: [Block] -> Machined
-machinedOf blocks =
-  Machined
-    { index = BoxTree.index (BoxTree.boundingBox . groups) walls,
-      -- The top of the part is at the height 0. While a blade cuts, its z axis may be above that
-      -- height.
-      top = maximum (Mm 0 : [Swivel.highest milling | Wall {milling} <- walls]),
-      statements = map statement walls
-    }
-  where
-    walls =
-      [ Wall n milling (BoxTree.index boxOf (concatMap groupsOf cs))
-        | (n, milling, cs) <-
-            map NonEmpty.head (NonEmpty.groupBy ((==) `on` numberOf) (mapMaybe contoursOf blocks))
-      ]
-    numberOf (n, _, _) = n
-    groupsOf = grouped . NonEmpty.toList . elements
-    grouped es = case es of
-      [] -> []
-      e : rest -> (e :| rest) : grouped (drop groupSize es)
-    boxOf (e :| es) =
-      foldl'
-        (\box other -> BoundingBox.union box (BoundingBox.ofSegment (Part.segment other)))
-        (BoundingBox.ofSegment (Part.segment e))
-        (take (groupSize - 1) es)
-
--- | The statement to which the pass of a block belongs: its number, the statement itself, and the
--- contours that the pass machines. Nothing for blocks other than passes, and when the centre of the
--- cutter moves on the contour.
-contoursOf :: Block -> Maybe (Int, Milling, [Contour])
-contoursOf b = case b of
-  Cutting {job = Located _ milling, pass}
-    | value (side milling) /= On -> Just (number pass, milling, [contour milling])
-    | otherwise -> Nothing
-  Clearing {pocket = Located _ p, pass} ->
-    Just (number pass, Part.wall p, contour (Part.wall p) : Part.islands p)
-  Travelling {} -> Nothing
-  Holing _ _ -> Nothing
-  Commanding _ -> Nothing
-
 -- | A tool, and the contours from which it has to keep its distance.
 data Intruder = Intruder
   { -- | radius of the tool
@@ -149,7 +78,7 @@ data Intruder = Intruder
   }
 
 -- | The intrusions of the moves of a block.
-intrusionsOfBlock :: Machined -> Block -> [Error]
+intrusionsOfBlock :: WallIndex -> Block -> [Error]
 intrusionsOfBlock machined b = case b of
   Commanding _ -> []
   Travelling radius' _ ms -> concatMap (found (Intruder radius' Nothing Nothing)) ms
@@ -180,7 +109,7 @@ intrusionsOfBlock machined b = case b of
   where
     found = intrusionsOfMove machined
     -- If no other statement has a contour, the cuts of statement @n@ need no check.
-    isAlone n = all (== n) (statements machined)
+    isAlone n = all (== n) (Wall.statements machined)
     -- For a cut, the report names the element along which the cutter moves, instead of the move.
     asMilling word e = case e of
       CutsPart milled _ element deep _ p -> MillsAnother word milled element deep p
@@ -196,62 +125,67 @@ throughProfile milling m
   | radius milling <= Mm 0,
     Right (Just side') <- leadingSide milling,
     Just (PointedIntrusion element deep p) <-
-      PointedIntrusion.deepest side' (allowedDepth milling path) (contour milling) path =
+      PointedIntrusion.deepest side' allowed (contour milling) path =
     Just (CutsPart (Toolpath.origin m) path element deep CutsContour p)
   | otherwise = Nothing
   where
     path = Toolpath.segment m
+    allowed = allowedDepth (Part.tolerance milling) path
 
 -- | The depth in mm to which a move may cut into a contour: the tolerance, and rounding. An arc may
 -- cut less deep ('PathTolerance.arcIntrusion'), because its chords need the tolerance, too.
-allowedDepth :: Milling -> Segment -> Mm
-allowedDepth milling path = plus Tolerance.clearance $ case path of
+allowedDepth :: Accuracy -> Segment -> Mm
+allowedDepth accuracy path = plus Tolerance.clearance $ case path of
   Straight _ _ -> inwards
   Arc {} -> min inwards PathTolerance.arcIntrusion
   where
-    inwards = fst (Part.deviationLimits (Part.tolerance milling))
+    inwards = fst (Part.deviationLimits accuracy)
 
 -- | The deepest intrusion of a move into the contours of each statement. If several of these are at
 -- one point, only the first is listed, because the statements then mill the same contour.
-intrusionsOfMove :: Machined -> Intruder -> Move -> [Error]
+intrusionsOfMove :: WallIndex -> Intruder -> Move -> [Error]
 intrusionsOfMove machined intruder m
-  | fst (Toolpath.heights m) > top machined && snd (Toolpath.heights m) > top machined = []
+  | before > Wall.top machined && after > Wall.top machined = []
   | otherwise =
     nubBy
       isSamePoint
       (map deepest (groupBy ((==) `on` fst) (sortOn fst (hits machined intruder m))))
   where
+    (before, after) = Toolpath.heights m
     isSamePoint e f = case (e, f) of
       (CutsPart _ _ _ _ _ p, CutsPart _ _ _ _ _ q) -> Vec.isNear p q
       _ -> False
     deepest errors = minimumBy (comparing depth) (map snd errors)
 
--- | The intrusions of the move @m@ into the elements near it, each with the number of the element's
--- statement.
-hits :: Machined -> Intruder -> Move -> [(Int, Error)]
+-- | The intrusions of the move @m@ into the elements near it, each with the number of a statement
+-- that machines the element. Of several statements with equal contours, only the first one is
+-- named, and the one that leaves an allowance: the intrusions into the contours of the others are
+-- the same.
+hits :: WallIndex -> Intruder -> Move -> [(Int, Error)]
 hits machined Intruder {tool, own, leaving} m =
-  [ (statement wall, e)
-    | wall <- BoxTree.within reach (index machined),
-      Just (statement wall) /= own,
-      group <- BoxTree.within reach (groups wall),
-      element <- NonEmpty.take groupSize group,
-      BoundingBox.meets reach (BoundingBox.ofSegment (Part.segment element)),
-      Just e <- [hit tool (keptFrom wall) (milling wall) m element]
+  [ (n, e)
+    | (wall, element) <- Wall.near (not . null . keeping) reach machined,
+      (n, kept) <- keeping wall,
+      Just e <- [hit tool kept (Wall.tolerance wall) m element]
   ]
   where
     reach =
       BoundingBox.inflate
         (plus tool (maybe (Mm 0) snd leaving))
         (BoundingBox.ofSegment (Toolpath.segment m))
-    keptFrom wall = case leaving of
-      Just (leaver, left) | statement wall == leaver -> plus tool left
-      _ -> tool
+    -- The statements to name, each with the distance to keep from its contours.
+    keeping wall =
+      [ (n, tool)
+        | n <- take 1 (filter isOther (Set.toAscList (Wall.machinedBy wall)))
+      ]
+        <> [(n, plus tool left) | Just (n, left) <- [leaving], n `Set.member` Wall.machinedBy wall]
+    isOther n = Just n /= own && Just n /= fmap fst leaving
 
 -- | The intrusion of the move @m@ into the element. Nothing if the move keeps its distance, within
--- the tolerance of the element's statement @milling@. @tool@ is the radius of the tool. @kept@ is
+-- the tolerance @accuracy@ of the element's statement. @tool@ is the radius of the tool. @kept@ is
 -- the distance that the tool's centre has to keep from the element.
-hit :: Mm -> Mm -> Milling -> Move -> Part.Element -> Maybe Error
-hit tool kept milling m element
+hit :: Mm -> Mm -> Accuracy -> Move -> Part.Element -> Maybe Error
+hit tool kept accuracy m element
   | plus d allowed < kept || d <= Tolerance.coincident && goesThrough allowed path wall =
     Just
       ( CutsPart
@@ -267,7 +201,7 @@ hit tool kept milling m element
     path = Toolpath.segment m
     wall = Part.segment element
     ClosestPoint d p = Distance.segments path wall
-    allowed = allowedDepth milling path
+    allowed = allowedDepth accuracy path
     how
       | d <= Tolerance.coincident = Crossing
       | plus d allowed < tool = CutsContour

@@ -210,6 +210,21 @@ spec = do
           partc ["compile", folder </> "flange.part", "--no-verify", "-o", folder </> "x.tape"]
         code `shouldBe` ExitSuccess
         err `shouldSatisfy` isInfixOf "warning[W0801]"
+  describe "check" $ do
+    it "checks the frames for the machine of the program, or for each one that is given" $ do
+      let program = "test/programs/machine/good/commands.part"
+          codesFor options = do
+            (code, out, err) <- partc (["check", "-q", "--format", "short", program] <> options)
+            out `shouldBe` ""
+            pure (code, length (lines err))
+      codesFor [] `shouldReturn` (ExitSuccess, 0)
+      codesFor ["-t", "lkp-01f"] `shouldReturn` (ExitSuccess, 0)
+      codesFor ["-t", "n55"] `shouldReturn` (ExitFailure 1, 4)
+      codesFor ["-t", "lkp-01f", "-t", "n55", "-t", "lki-u"] `shouldReturn` (ExitFailure 1, 8)
+    it "refuses a machine that is not known" $ do
+      (code, _, err) <- partc ["check", "examples/stub.part", "-t", "lkp-99"]
+      code `shouldBe` ExitFailure 1
+      err `shouldSatisfy` isInfixOf "E0805"
   describe "verify" $ do
     it "proves its own tape, and disproves one with a changed digit with status 3" $
       inFolder $ \folder -> do
