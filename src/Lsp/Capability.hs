@@ -13,6 +13,7 @@ import Data.Aeson.KeyMap qualified as KeyMap
 import Data.Foldable (toList)
 import Data.Maybe (isJust)
 import Data.Text (Text)
+import Data.Text qualified as Text
 
 -- | The capabilities of the client that change the form of answers and diagnostics.
 data Client = Client
@@ -23,7 +24,13 @@ data Client = Client
     -- | true if a diagnostic may have related information, with ranges of its own
     related :: Bool,
     -- | true if the answer to a request for code actions may contain actions, not only commands
-    actions :: Bool
+    actions :: Bool,
+    -- | true if the text of a completion may contain the marks of snippets
+    snippets :: Bool,
+    -- | true if the client wants inlay hints
+    hints :: Bool,
+    -- | the address of the folder that contains the pages of the manual; it ends in a stroke
+    manual :: Maybe Text
   }
   deriving stock (Eq, Show)
 
@@ -37,6 +44,11 @@ fromInitialize params =
         Just (Array kinds) -> String "markdown" `elem` toList kinds
         _ -> False,
       actions = isJust (at ["codeAction", "codeActionLiteralSupport"]),
+      snippets = at ["completion", "completionItem", "snippetSupport"] == Just (Bool True),
+      hints = within ["initializationOptions", "inlayHints"] params == Just (Bool True),
+      manual = case within ["initializationOptions", "manual"] params of
+        Just (String address) | address /= "" -> Just (Text.dropWhileEnd (== '/') address <> "/")
+        _ -> Nothing,
       related = at ["publishDiagnostics", "relatedInformation"] == Just (Bool True)
     }
   where
@@ -66,6 +78,10 @@ initializeResult =
             "hoverProvider" .= True,
             "definitionProvider" .= True,
             "documentSymbolProvider" .= True,
+            "completionProvider" .= object ["triggerCharacters" .= ["(", "," :: Text]],
+            "signatureHelpProvider"
+              .= object
+                ["triggerCharacters" .= ["(" :: Text], "retriggerCharacters" .= ["," :: Text]],
             "documentFormattingProvider" .= True,
             "codeActionProvider" .= object ["codeActionKinds" .= ["quickfix" :: Text]]
           ]

@@ -6,6 +6,7 @@ module Query.Snapshot
     take,
     isGood,
     importOf,
+    reloaded,
   )
 where
 
@@ -16,6 +17,8 @@ import Checked.Syntax qualified as Checked
 import Compile (Analysis)
 import Compile qualified
 import Data.Bifunctor (first)
+import Data.Functor.Identity (Identity (..))
+import Data.List (partition)
 import Data.Maybe qualified as Maybe
 import Data.Text (Text)
 import Data.Text qualified as Text
@@ -29,7 +32,8 @@ import Query.Mention (Mentions)
 import Query.Mention qualified as Mention
 import Report.Report (Report)
 import Report.Report qualified as Report
-import Surface.Syntax (Program (..))
+import Surface.Import qualified as Import
+import Surface.Syntax (Program (..), Statement)
 import Toolpath.Toolpath (Toolpath)
 import Prelude hiding (take)
 
@@ -60,6 +64,8 @@ data Snapshot = Snapshot
     -- | the file names in imports and table statements: the region of each name, and the path of
     -- the file
     imports :: [(Region, Text)],
+    -- | the statements that come from imported files
+    imported :: [Statement],
     -- | the evaluated part; absent if nothing of the program could be checked
     part :: Maybe Part,
     -- | the toolpath; absent if the program has an error before this stage
@@ -77,6 +83,7 @@ take check loaded =
       program,
       facts = Mention.facts known,
       imports = LoadedProgram.imports loaded,
+      imported,
       part = snd <$> known,
       path = Compile.path . fst <$> output result,
       machines = maybe [] (\(_, made) -> foldr seq made made) (output result)
@@ -86,7 +93,8 @@ take check loaded =
     result = check loaded
     reports = Report.sorted (errors result <> warnings result)
     whole = Maybe.fromMaybe (Program [] []) (output (LoadedProgram.surface loaded))
-    program = whole {statements = filter (isOwn . Region.start . Region.region) (statements whole)}
+    (own, imported) = partition (isOwn . Region.start . Region.region) (statements whole)
+    program = whole {statements = own}
     isOwn offset = offset <= Text.length (Region.text source)
     known = case output result of
       Just (analysis, _) -> Just (Compile.mentions analysis, Compile.part analysis)
@@ -109,3 +117,18 @@ importOf Snapshot {source, imports} = go (length imports)
         | otherwise -> case [at | (at, named) <- imports, named == file] of
           at : _ -> Just (Maybe.fromMaybe at (go (steps - 1) at))
           [] -> Nothing
+
+-- | Loads another text of the program. The files that it imports have the texts that they have in
+-- the snapshot, except those in @changed@: pairs of a path and a new text.
+reloaded :: Snapshot -> [(Text, Text)] -> Text -> LoadedProgram
+reloaded Snapshot {source} changed text =
+  runIdentity (LoadedProgram.load (Import.byName reader) main text)
+  where
+    main = Text.unpack (Region.mainFile source)
+    reader path =
+      Identity
+        ( maybe
+            (Left "it is not part of the program")
+            Right
+            (lookup (Text.pack path) (changed <> drop 1 (Region.files source)))
+        )
