@@ -19,6 +19,7 @@ module Base.Region
     nextOffset,
     text,
     mainFile,
+    files,
     position,
     offset,
     lineText,
@@ -124,6 +125,11 @@ text = content . own
 -- | The path of the program's own file.
 mainFile :: Source -> Text
 mainFile = path . own
+
+-- | All files of a source, each with its path and its text: the program's own file, then the
+-- imported files.
+files :: Source -> [(Text, Text)]
+files Source {own, imported} = [(path f, content f) | f <- own : Boxed.toList imported]
 
 -- | Makes a file with an index of its lines. @base@ is the offset of its first character.
 indexed :: Text -> Int -> Text -> File

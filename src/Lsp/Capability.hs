@@ -13,6 +13,7 @@ import Data.Aeson.KeyMap qualified as KeyMap
 import Data.Foldable (toList)
 import Data.Maybe (isJust)
 import Data.Text (Text)
+import Data.Text qualified as Text
 
 -- | The capabilities of the client that change the form of answers and diagnostics.
 data Client = Client
@@ -29,7 +30,13 @@ data Client = Client
     -- | true if the client asks for code lenses again when the server wants it
     refreshesLenses :: Bool,
     -- | true if the client can be asked to watch files
-    watchesFiles :: Bool
+    watchesFiles :: Bool,
+    -- | true if the text of a completion may contain the marks of snippets
+    snippets :: Bool,
+    -- | true if the client wants inlay hints
+    hints :: Bool,
+    -- | the address of the folder that contains the pages of the manual; it ends in a stroke
+    manual :: Maybe Text
   }
   deriving stock (Eq, Show)
 
@@ -47,7 +54,12 @@ fromInitialize params =
       progress = inAll ["window", "workDoneProgress"] == Just (Bool True),
       refreshesLenses = inAll ["workspace", "codeLens", "refreshSupport"] == Just (Bool True),
       watchesFiles =
-        inAll ["workspace", "didChangeWatchedFiles", "dynamicRegistration"] == Just (Bool True)
+        inAll ["workspace", "didChangeWatchedFiles", "dynamicRegistration"] == Just (Bool True),
+      snippets = at ["completion", "completionItem", "snippetSupport"] == Just (Bool True),
+      hints = within ["initializationOptions", "inlayHints"] params == Just (Bool True),
+      manual = case within ["initializationOptions", "manual"] params of
+        Just (String address) | address /= "" -> Just (Text.dropWhileEnd (== '/') address <> "/")
+        _ -> Nothing
     }
   where
     inAll keys = within ("capabilities" : keys) params
@@ -77,6 +89,10 @@ initializeResult =
             "hoverProvider" .= True,
             "definitionProvider" .= True,
             "documentSymbolProvider" .= True,
+            "completionProvider" .= object ["triggerCharacters" .= ["(", "," :: Text]],
+            "signatureHelpProvider"
+              .= object
+                ["triggerCharacters" .= ["(" :: Text], "retriggerCharacters" .= ["," :: Text]],
             "documentFormattingProvider" .= True,
             "codeActionProvider" .= object ["codeActionKinds" .= ["quickfix" :: Text]]
           ]

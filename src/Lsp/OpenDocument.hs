@@ -29,8 +29,9 @@ import Data.Text (Text)
 import Lsp.Document (Document)
 import Lsp.Document qualified as Document
 import Lsp.Message (Id)
-import Lsp.Request (Need (..), Subject (Subject, now, proven))
-import Lsp.Request qualified as Request
+import Lsp.Request (Need (..))
+import Lsp.Subject (Subject (Subject, now, proven))
+import Lsp.Subject qualified as Subject
 import Lsp.Uri qualified as Uri
 import Query.CarriedReport qualified as CarriedReport
 import Query.Snapshot (Snapshot)
@@ -157,7 +158,7 @@ isReady need o = case need of
 -- one, and answers come from the last snapshot, with positions moved to the present text.
 subject :: OpenDocument -> Subject
 subject o =
-  Subject {Request.document = document o, now, Request.sound = before, proven}
+  Subject {Subject.document = document o, now, Subject.sound = before, proven}
   where
     proven = case proof o of
       ProofEnded isProven -> Just isProven

@@ -9,23 +9,25 @@ module Lsp.Request
   )
 where
 
-import Base.Region (Region (..), Source)
+import Base.Region (Region (..))
 import Base.Region qualified as Region
 import Data.Aeson (Value (..), object, toJSON, withObject, (.:), (.=))
 import Data.Aeson.Key qualified as Key
-import Data.Aeson.Types (Parser)
 import Data.Maybe qualified as Maybe
 import Data.Text (Text)
 import Data.Text qualified as Text
 import Lsp.Capability (Client (..))
+import Lsp.CompletionRequest qualified as CompletionRequest
 import Lsp.Diagnostic qualified as Diagnostic
+import Lsp.DescriptionRequest qualified as DescriptionRequest
 import Lsp.Document (Document (..))
+import Lsp.Document qualified as Document
 import Lsp.Location qualified as Location
 import Lsp.Position qualified as Position
+import Lsp.Subject (Method, Subject (..), fenced, markup, offsetIn, source)
 import Lsp.Uri (Uri (..))
 import Query.Formatting qualified as Formatting
 import Query.Name qualified as Name
-import Query.Snapshot (Snapshot)
 import Query.Snapshot qualified as Snapshot
 import Query.Symbol (SymbolKind (..))
 import Query.Symbol qualified as Symbol
@@ -33,27 +35,17 @@ import Report.Fix qualified as Fix
 import Report.Report (Report (fixes, place), ReportPlace (..))
 import Surface.Formatter qualified as Formatter
 
--- | The document that a request is about. @now@ is the snapshot of its present text. @sound@ is the
--- snapshot of its last text without errors; nothing if there was none.
---
--- If the present text is not analysed yet, @now@ has only this text and @sound@ is the last
--- snapshot. @proven@ is true if the tape of the present text is proven, false if it is not, and
--- nothing if this is not known yet.
-data Subject = Subject
-  { document :: Document,
-    now :: Snapshot,
-    sound :: Maybe Snapshot,
-    proven :: Maybe Bool
-  }
-
--- | A function that answers one kind of request. The arguments: the capabilities of the client, the
--- document, the parameters of the request. The parser fails if the parameters are wrong.
-type Method = Client -> Subject -> Value -> Parser Value
-
 -- | The function for a method name of the protocol, such as @textDocument/hover@. Nothing if the
 -- server does not support this method.
 method :: Text -> Maybe Method
-method name = lookup name table
+method name = ofKind <$> lookup name table
+  where
+    ofKind ofPrograms client subject
+      | Document.isDescription (document subject) =
+        case lookup name DescriptionRequest.table of
+          Just ofDescriptions -> ofDescriptions client subject
+          Nothing -> const (pure Null)
+      | otherwise = ofPrograms client subject
 
 -- | The results that must be there before a request is answered.
 data Need
@@ -78,7 +70,9 @@ need name
 
 table :: [(Text, Method)]
 table =
-  [ ("textDocument/hover", hover),
+  [ ("textDocument/completion", CompletionRequest.completion),
+    ("textDocument/signatureHelp", CompletionRequest.signatureHelp),
+    ("textDocument/hover", hover),
     ("textDocument/definition", definition),
     ("textDocument/documentSymbol", symbols),
     ("textDocument/formatting", formatting),
@@ -86,25 +80,14 @@ table =
     ("partc/at", atPosition)
   ]
 
--- | The position in the parameters of a request, as an offset: a count of characters from the
--- beginning of the document.
-offsetIn :: Subject -> Value -> Parser Int
-offsetIn subject =
-  withObject "parameters" (\o -> Position.offset (source subject) <$> o .: "position")
-
--- | The present text of the document with its imported files.
-source :: Subject -> Source
-source = Snapshot.source . now
-
 hover :: Method
 hover client subject params =
   maybe Null shown . Name.hover (now subject) (sound subject) <$> offsetIn subject params
   where
     shown h =
       object ["contents" .= contents h, "range" .= Position.range (source subject) (Name.place h)]
-    contents h
-      | markdown client = markup "markdown" ("```part\n" <> line h <> "\n```\n" <> Name.meaning h)
-      | otherwise = markup "plaintext" (line h <> "\n" <> Name.meaning h)
+    contents h =
+      markup client (fenced (line h) <> "\n" <> Name.meaning h) (line h <> "\n" <> Name.meaning h)
     line h = Name.name h <> maybe "" (" = " <>) (Name.value h)
 
 -- | Name at a position with its value and meaning: a title and the rows of a table, for a panel
@@ -121,10 +104,6 @@ atPosition _ subject params =
                    <> [["meaning", Name.meaning h]]
                )
         ]
-
--- | The JSON value of a text whose @kind@ is @markdown@ or @plaintext@.
-markup :: Text -> Text -> Value
-markup kind text = object ["kind" .= kind, "value" .= text]
 
 definition :: Method
 definition _ subject params =

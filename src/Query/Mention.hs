@@ -2,13 +2,14 @@
 module Query.Mention
   ( Mentions (..),
     Mention (..),
+    MentionType (..),
     none,
     facts,
   )
 where
 
 import Base.Region (Region)
-import Checked.Syntax (Mention (..))
+import Checked.Syntax (Mention (..), MentionType (..))
 import Data.Text (Text)
 import Part.Part (Part)
 import Part.Part qualified as Part

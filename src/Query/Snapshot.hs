@@ -12,6 +12,7 @@ module Query.Snapshot
     isGood,
     hasFacts,
     importOf,
+    reloaded,
   )
 where
 
@@ -22,6 +23,7 @@ import Checked.Syntax qualified as Checked
 import Compile (Analysis)
 import Compile qualified
 import Data.Bifunctor (first)
+import Data.Functor.Identity (Identity (..))
 import Data.List qualified as List
 import Data.Maybe qualified as Maybe
 import Data.Text (Text)
@@ -38,7 +40,8 @@ import Query.Mention (Mentions)
 import Query.Mention qualified as Mention
 import Report.Report (Report)
 import Report.Report qualified as Report
-import Surface.Syntax (Program (..))
+import Surface.Import qualified as Import
+import Surface.Syntax (Program (..), Statement)
 import Toolpath.Toolpath (Toolpath)
 import Prelude hiding (take)
 
@@ -83,6 +86,8 @@ data Snapshot = Snapshot
     -- | the file names in imports and table statements: the region of each name, and the path of
     -- the file
     imports :: [(Region, Text)],
+    -- | the statements that come from imported files
+    imported :: [Statement],
     -- | the paths of all files on which the results depend, apart from the program's own
     dependencies :: [Text],
     -- | the evaluated part; absent if nothing of the program could be checked
@@ -103,6 +108,7 @@ unanalysed source =
       program = Program [] [],
       facts = Mention.none,
       imports = [],
+      imported = [],
       dependencies = [],
       part = Nothing,
       path = Nothing,
@@ -125,9 +131,10 @@ inStages check loaded = (early, complete)
         { source,
           reports = Report.sorted (both evaluated),
           laterReports = [],
-          program = written {statements = filter isOwn (statements written)},
+          program = written {statements = own},
           facts = Mention.facts (first Checked.mentions <$> output evaluated),
           imports = LoadedProgram.imports loaded,
+          imported,
           dependencies = LoadedProgram.files loaded,
           part = snd <$> output evaluated,
           path = Nothing,
@@ -145,6 +152,7 @@ inStages check loaded = (early, complete)
         <> drop (length (warnings evaluated)) (warnings whole)
     both result = errors result <> warnings result
     source = LoadedProgram.source loaded
+    (own, imported) = List.partition isOwn (statements written)
     written = Maybe.fromMaybe (Program [] []) (output (LoadedProgram.surface loaded))
     isOwn s = Region.start (Region.region s) <= Text.length (Region.text source)
 
@@ -183,3 +191,18 @@ importOf Snapshot {source, imports} = go (length imports)
         | otherwise -> case [at | (at, named) <- imports, named == file] of
           at : _ -> Just (Maybe.fromMaybe at (go (steps - 1) at))
           [] -> Nothing
+
+-- | Loads another text of the program. The files that it imports have the texts that they have in
+-- the snapshot, except those in @changed@: pairs of a path and a new text.
+reloaded :: Snapshot -> [(Text, Text)] -> Text -> LoadedProgram
+reloaded Snapshot {source} changed text =
+  runIdentity (LoadedProgram.load (Import.byName reader) main text)
+  where
+    main = Text.unpack (Region.mainFile source)
+    reader path =
+      Identity
+        ( maybe
+            (Left "it is not part of the program")
+            Right
+            (lookup (Text.pack path) (changed <> drop 1 (Region.files source)))
+        )

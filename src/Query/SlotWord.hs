@@ -1,0 +1,222 @@
+-- | The words of the grammar that say what comes after them: keywords of statements and settings,
+-- and the words inside them.
+module Query.SlotWord
+  ( Slot (..),
+    GrammarWord (..),
+    statement,
+    setting,
+    item,
+    element,
+    afterElement,
+    cutterWords,
+    cipherTypes,
+  )
+where
+
+import Checked.Type (Type (..))
+import Checked.Type qualified as Type
+import Data.Text (Text)
+
+-- | A kind of text that may come at the cursor.
+data Slot
+  = -- | a statement; the keywords of the statements of this block so far
+    AtStatement [Text]
+  | -- | a setting of the statement with this keyword; the first words of the settings so far
+    AtSetting Text [Text]
+  | AtWord [GrammarWord]
+  | -- | a value of one of these types, of any type if there are none; true if it is a factor or a
+    -- divisor
+    AtValue [Type] Bool
+  | -- | a column of a table, each with the type of its cells
+    AtColumn [(Text, Type)]
+  | -- | a point that chooses one of several answers
+    AtChoice
+  | AtUnit
+  | AtMachine
+  | AtCutter
+  deriving stock (Eq, Show)
+
+-- | A word of the grammar, and the text that is inserted for it. This text may contain the marks of
+-- snippets, such as @${1:6}@.
+data GrammarWord = GrammarWord {word :: Text, text :: Text}
+  deriving stock (Eq, Show)
+
+-- | The slots directly after a word of a statement, and those after its operand. 'Nothing' if the
+-- word has no such meaning in the statement with this keyword.
+statement :: Text -> Text -> Maybe ([Slot], [Slot])
+statement keyword w = lookup w (entries keyword)
+
+entries :: Text -> [(Text, ([Slot], [Slot]))]
+entries keyword = case keyword of
+  "machine" -> own [AtMachine] []
+  "tool" -> own [AtCutter] []
+  "feed" -> own (value Type.feed) []
+  "tolerance" ->
+    own (words' ["inside"] <> value Type.len) []
+      <> [("inside", (value Type.len, words' ["outside"])), ("outside", (value Type.len, []))]
+  "clearance" -> own (value Type.len) []
+  "from" -> own stops []
+  "let" -> [(keyword, ([], [])), ("=", (anything, []))]
+  "param" -> [(keyword, ([], [])), ("=", (anything, []))]
+  "curve" -> [(keyword, ([], [])), ("=", (value (Curve (Variable 0)), []))]
+  "piece" -> pieceEntries
+  "contour" -> own [] (words' ["closed", "open"]) <> [("closed", ([], [])), ("open", ([], []))]
+  "table" -> own [] (words' ["from"])
+  "assert" -> own anything (words' ["within"]) <> [("within", (anything, []))]
+  "mill" -> onContour (words' sides)
+  "turn" -> onContour (words' sides)
+  "pocket" -> onContour (words' ["step"]) <> [("step", (value Type.len, []))]
+  "drill" ->
+    own (words' ["at"]) []
+      <> [ ("at", ([AtValue [ListOf Type.aPoint, Type.aPoint] False], words' ["depth"])),
+           ("depth", (value Type.len, []))
+         ]
+  "rapid" -> own stops (words' ["feed"]) <> [("feed", (value Type.feed, []))]
+  "move" -> own stops (words' ["feed", "rapid"]) <> [("feed", (value Type.feed, []))]
+  "change" -> own (value Type.number) [AtCutter]
+  "spindle" ->
+    own (words' ["cw", "ccw", "off"]) []
+      <> [(sense, (value Type.spindleSpeed, [])) | sense <- ["cw", "ccw"]]
+  "coolant" -> own (words' ["on", "off"]) []
+  "aux" -> own (value Type.number) []
+  "with" -> own (value Transformation) []
+  "for" -> own [] (words' ["in"]) <> [("in", (value (ListOf (Variable 0)), []))]
+  "if" -> own (value Boolean) [] <> [("else", (words' ["if"], []))]
+  _ -> []
+  where
+    own follows after = [(keyword, (follows, after))]
+    onContour after = own (value Contour) after <> [(s, ([], [])) | s <- sides]
+
+pieceEntries :: [(Text, ([Slot], [Slot]))]
+pieceEntries =
+  [ ("piece", ([], [])),
+    ("=", (value (Curve (Variable 0)), words' ["cipher", "left", "right"])),
+    ("cipher", ([AtWord digits], words' ["left", "right"])),
+    ("left", ([AtWord [GrammarWord "joggle" joggle]], [])),
+    ("right", ([AtWord [GrammarWord "joggle" joggle]], [])),
+    ("joggle", (words' ["from"], [])),
+    ("from", (value Type.len, words' ["to"])),
+    ("to", (value Type.len, words' ["depth"])),
+    ("depth", (value Type.len, words' ["radius"])),
+    ("radius", (value Type.len, words' ["joggle"]))
+  ]
+  where
+    joggle = "joggle from ${1:x1} to ${2:x2} depth ${3:1 mm} radius ${4:5 mm}"
+    digits =
+      [ GrammarWord "1" "1(${1:start}, ${2:end})",
+        GrammarWord "2" "2(${1:distance})",
+        GrammarWord "4" "4(${1:bevel}, ${2:height})",
+        GrammarWord "6" "6(${1:distance})"
+      ]
+
+-- | As 'statement', for the settings of machining statements.
+setting :: Text -> Maybe ([Slot], [Slot])
+setting w = case w of
+  "approach" -> Just (stops, words' ["rapid", "feed"])
+  "retract" -> Just (stops, words' ["rapid", "feed"])
+  "feed" -> Just (value Type.feed, [])
+  "depth" -> Just (value Type.len, words' ["step"])
+  "step" -> Just (value Type.len, [])
+  "lead" -> Just (words' ["in", "out"], [])
+  "in" -> Just (words' ["line", "arc"], [])
+  "out" -> Just (words' ["line", "arc"], [])
+  "line" -> Just (value Type.len, [])
+  "arc" -> Just (value Type.len, [])
+  "allowance" -> Just (value Type.len, [])
+  "corners" -> Just (words' ["round", "sharp"], [])
+  "compensation" -> Just (words' ["compiler", "controller"], [])
+  "start" -> Just (words' ["near"], [])
+  "near" -> Just (AtChoice : value Type.aPoint, [])
+  "plunge" -> Just (value Type.feed, [])
+  "peck" -> Just (value Type.len, [])
+  "islands" -> Just ([AtValue [Contour, ListOf Contour] False], [])
+  "rest" -> Just (words' ["allowed"], [])
+  _ -> Nothing
+
+-- | As 'statement', for the items of a contour. The empty word is the beginning of an item.
+item :: Text -> Maybe ([Slot], [Slot])
+item w = case w of
+  "" -> Just (element, next)
+  "cw" -> Just (value Circle, next)
+  "ccw" -> Just (value Circle, next)
+  "feed" -> Just (value Type.feed, next)
+  "slow" -> Just (next, next)
+  "allowance" -> Just (value Type.len, next)
+  "bevel" -> Just (value Type.angle, next)
+  "meet" -> Just (words' ["near"] <> element, next)
+  "near" -> Just (AtChoice : value Type.aPoint, element)
+  "smooth" -> Just (element, next)
+  "tangent" -> Just (element, next)
+  "fillet" -> Just (value Type.len, element)
+  "chamfer" -> Just (value Type.len, element)
+  "for" -> Just ([], words' ["in"])
+  "in" -> Just (value (ListOf (Variable 0)), [])
+  "if" -> Just (value Boolean, [])
+  "else" -> Just (words' ["if"], [])
+  _ -> Nothing
+  where
+    next = afterElement <> element
+
+-- | The slots at the beginning of an item of a contour.
+element :: [Slot]
+element =
+  [ words1 ["cw", "ccw"],
+    AtWord
+      [ GrammarWord "for" "for ${1:a} in ${2:list} {\n  $0\n}",
+        GrammarWord "if" "if ${1:condition} {\n  $0\n}"
+      ],
+    AtValue [Line, Type.aPoint, Curve (Variable 0), Contour] False
+  ]
+
+-- | The words that may come after an element of a contour.
+afterElement :: [Slot]
+afterElement =
+  words' ["meet", "smooth", "tangent", "fillet", "chamfer", "feed", "slow", "allowance", "bevel"]
+
+-- | The words in the parentheses of a cutter of this kind, in order.
+cutterWords :: Text -> [Text]
+cutterWords kind = case kind of
+  "turn" -> ["nose"]
+  "cone" -> ["diameter", "bevel", "height"]
+  "blade" -> ["diameter", "gear"]
+  _ -> ["diameter"]
+
+-- | The types of a value of a cipher: the digit of the cipher, and the index of the value from 0.
+cipherTypes :: Text -> Int -> [Type]
+cipherTypes digit index = case (digit, index) of
+  ("1", 0) -> [Type.len]
+  ("1", 1) -> [Type.len]
+  ("1", 2) -> [Type.angle, Type.aPoint]
+  ("1", 3) -> [Type.aPoint]
+  ("1", 4) -> [Type.aPoint]
+  ("2", 0) -> [Type.len]
+  ("2", 1) -> [Type.angle]
+  ("4", 0) -> [Type.angle]
+  ("4", 1) -> [Type.len]
+  ("4", 2) -> [Type.len]
+  ("6", 0) -> [Type.len]
+  ("6", 1) -> [Type.angle]
+  _ -> []
+
+sides :: [Text]
+sides = ["outside", "inside", "left", "right", "on"]
+
+value :: Type -> [Slot]
+value t = [AtValue [t] False]
+
+anything :: [Slot]
+anything = [AtValue [] False]
+
+-- | A stop: a point of the plane or with a height.
+stops :: [Slot]
+stops = [AtValue [Type.aPoint, SpacePoint] False]
+
+words' :: [Text] -> [Slot]
+words' ws = [words1 ws]
+
+words1 :: [Text] -> Slot
+words1 ws = AtWord [GrammarWord w (w <> if w `elem` final then "" else " ") | w <- ws]
+  where
+    final =
+      ["open", "closed", "off", "on", "round", "sharp", "compiler", "controller", "allowed", "slow"]
+        <> ["inside", "outside", "left", "right", "smooth", "tangent", "meet", "rapid"]

@@ -1,0 +1,90 @@
+-- | The texts that an editor inserts for statements and settings. They contain the marks of
+-- snippets of the Language Server Protocol: @${1:6}@ is a part to fill in, @$0@ is the position of
+-- the cursor at the end.
+module Query.Snippet
+  ( statements,
+    setting,
+    cutters,
+    onceOnly,
+    plain,
+  )
+where
+
+import Data.Char (isDigit)
+import Data.Text (Text)
+import Data.Text qualified as Text
+
+-- | The statements, in the order of a usual program: each by its keyword, with its text.
+statements :: [(Text, Text)]
+statements =
+  [ ("part", "part ${1:name} \"${2:title}\""),
+    ("machine", "machine ${1:lkp-01f}"),
+    ("tool", "tool mill(diameter ${1:6 mm})"),
+    ("feed", "feed ${1:60 mm/min}"),
+    ("tolerance", "tolerance ${1:0.02 mm}"),
+    ("clearance", "clearance ${1:3 mm}"),
+    ("from", "from (${1:0}, ${2:0})"),
+    ("let", "let ${1:name} = $0"),
+    ("param", "param ${1:name} = $0"),
+    ("contour", "contour ${1:name} closed {\n  $0\n}"),
+    ("mill", "mill ${1:contour} ${2:outside} {\n  approach (${3:0}, ${4:0})\n  $0\n}"),
+    ("pocket", "pocket ${1:contour} step ${2:3 mm} {\n  approach (${3:0}, ${4:0})\n  $0\n}"),
+    ("drill", "drill at ${1:points} depth ${2:5 mm}"),
+    ("turn", "turn ${1:contour} ${2:outside} {\n  approach (${3:0}, ${4:0})\n  $0\n}"),
+    ("rapid", "rapid (${1:0}, ${2:0})"),
+    ("move", "move (${1:0}, ${2:0})"),
+    ("change", "change ${1:2} drill(diameter ${2:5 mm})"),
+    ("spindle", "spindle ${1:cw}"),
+    ("coolant", "coolant ${1:on}"),
+    ("aux", "aux ${1:1}"),
+    ("for", "for ${1:p} in ${2:list} {\n  $0\n}"),
+    ("if", "if ${1:condition} {\n  $0\n}"),
+    ("with", "with ${1:rotated(90 deg)} {\n  $0\n}"),
+    ("table", "table ${1:name} {\n  x y\n  $0\n}"),
+    ("curve", "curve ${1:name} = spline(${2:table})"),
+    ("piece", "piece ${1:name} = ${2:curve} cipher 2(${3:1 mm}) ${4:left}"),
+    ("import", "import \"${1:file.part}\""),
+    ("assert", "assert $0")
+  ]
+
+-- | The text of a setting that begins with these one or two words.
+setting :: Text -> Text
+setting words' = case words' of
+  "approach" -> "approach (${1:0}, ${2:0})"
+  "retract" -> "retract (${1:0}, ${2:0})"
+  "depth" -> "depth ${1:5 mm}"
+  "lead in" -> "lead in arc ${1:5 mm}"
+  "lead out" -> "lead out arc ${1:5 mm}"
+  "allowance" -> "allowance ${1:0.3 mm}, ${2:0 mm}"
+  "corners" -> "corners ${1:sharp}"
+  "compensation" -> "compensation ${1:controller}"
+  "start near" -> "start near (${1:0}, ${2:0})"
+  "plunge" -> "plunge ${1:20 mm/min}"
+  "peck" -> "peck ${1:3 mm}"
+  "islands" -> "islands ${1:contour}"
+  "rest" -> "rest allowed"
+  _ -> words'
+
+-- | The cutters, each by its keyword, with its text.
+cutters :: [(Text, Text)]
+cutters =
+  [ ("mill", "mill(diameter ${1:6 mm})"),
+    ("drill", "drill(diameter ${1:5 mm})"),
+    ("turn", "turn(nose ${1:0.4 mm})"),
+    ("cone", "cone(diameter ${1:6 mm}, bevel ${2:5 deg}, height ${3:3 mm})"),
+    ("blade", "blade(diameter ${1:40 mm}, gear ${2:20 mm})")
+  ]
+
+-- | The keywords of the statements that a program has at most once.
+onceOnly :: [Text]
+onceOnly = ["part", "machine", "tool", "tolerance", "from"]
+
+-- | The text of a snippet without its marks, for a client that does not know them.
+plain :: Text -> Text
+plain snippet = case Text.breakOn "$" snippet of
+  (before, rest)
+    | Text.null rest -> before
+    | "${" `Text.isPrefixOf` rest ->
+      let (inner, after) = Text.breakOn "}" (Text.drop 2 rest)
+       in before <> Text.drop 1 (Text.dropWhile (/= ':') inner) <> plain (Text.drop 1 after)
+    | otherwise -> before <> plain (Text.dropWhile isDigit (Text.drop 1 rest))
