@@ -44,4 +44,5 @@ hover client subject params = do
           "range" .= rangeOf subject (word found)
         ]
     words' found =
-      "A key of " <> section found <> ", which may have: " <> Text.intercalate ", " (keys found) <> "."
+      Text.concat
+        ["A key of ", section found, ". Its keys are: ", Text.intercalate ", " (keys found), "."]

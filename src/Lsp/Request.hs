@@ -18,8 +18,8 @@ import Data.Text (Text)
 import Data.Text qualified as Text
 import Lsp.Capability (Client (..))
 import Lsp.CompletionRequest qualified as CompletionRequest
-import Lsp.Diagnostic qualified as Diagnostic
 import Lsp.DescriptionRequest qualified as DescriptionRequest
+import Lsp.Diagnostic qualified as Diagnostic
 import Lsp.Document (Document (..))
 import Lsp.Document qualified as Document
 import Lsp.Location qualified as Location

@@ -1,8 +1,8 @@
 -- | The keys of machine descriptions, for an editor.
 --
--- The reader of descriptions knows which keys a section may have, and names them in its report on an
--- unknown key. So the word at the cursor is replaced by a key that does not exist, and this report is
--- looked for.
+-- The reader of descriptions knows which keys a section may have, and names them in its report on
+-- an unknown key. So the word at the cursor is replaced by a key that does not exist, and this
+-- report is looked for.
 module Query.DescriptionKey
   ( DescriptionKeys (..),
     keysAt,
@@ -19,8 +19,8 @@ import Machine.Error (Error (UnknownKey))
 import Machine.FromText qualified as Machine
 import Machine.Machine (Machine)
 
--- | The word at the cursor, where a statement begins: its region, the section, and all keys that the
--- section may have.
+-- | The word at the cursor, where a statement begins: its region, the section, and all keys that
+-- the section may have.
 data DescriptionKeys = DescriptionKeys {word :: Region, section :: Text, keys :: [Text]}
   deriving stock (Eq, Show)
 

@@ -26,11 +26,12 @@ spec = do
     ]
       `shouldBe` []
   where
-    keysAfter before after =
-      DescriptionKey.keysAt (before <> after) (Text.length before)
+    keysAfter front back =
+      DescriptionKey.keysAt (front <> back) (Text.length front)
     -- The lines that begin with the key of a section, with the offset of this key.
     statementsOf text =
       [ (line, at + Text.length (Text.takeWhile (== ' ') line))
-        | (line, at) <- zip (Text.lines text) (scanl (\n l -> n + Text.length l + 1) 0 (Text.lines text)),
+        | (line, at) <- zip (Text.lines text) (scanl beyond 0 (Text.lines text)),
           any (`Text.isPrefixOf` line) ["  pulse ", "  leader ", "  numbers ", "  tracks "]
       ]
+    beyond at line = at + Text.length line + 1
