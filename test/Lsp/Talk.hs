@@ -20,6 +20,7 @@ module Lsp.Talk
     about,
     at,
     field,
+    listed,
     units,
     positionIn,
   )
@@ -152,7 +153,7 @@ textOf path (Talk session _ _) = Session.openText session path
 -- | All published diagnostics in order, each set with its address and version.
 published :: Talk -> [(Value, Value, [Squiggle])]
 published talk =
-  [ (field "uri" p, field "version" p, map squiggle (list (field "diagnostics" p)))
+  [ (field "uri" p, field "version" p, map squiggle (listed (field "diagnostics" p)))
     | Send (Notify "textDocument/publishDiagnostics" p) <- heard talk
   ]
 
@@ -205,8 +206,9 @@ field key v = case v of
   Object o | Just x <- KeyMap.lookup key o -> x
   _ -> Null
 
-list :: Value -> [Value]
-list v = case v of
+-- | The listed of a list, or none.
+listed :: Value -> [Value]
+listed v = case v of
   Array xs -> toList xs
   _ -> []
 
