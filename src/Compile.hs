@@ -19,6 +19,7 @@ module Compile
     analyse,
     Analysis (..),
     check,
+    checkedFrames,
     checkEvaluated,
     punch,
     Punched (..),
@@ -115,10 +116,17 @@ plan (checked, part) = do
 -- | Runs all compiler passes up to the frames, for every machine of the job, and gives their errors
 -- and warnings. Makes no tape.
 check :: Job -> LoadedProgram -> Result Report Report Analysis
-check job loaded = fst <$> checkEvaluated job (evaluate (values job) loaded)
+check job loaded = fst <$> checkedFrames job loaded
 
--- | Continues 'check' after 'evaluate', and gives the frames for each machine too. The result
--- includes the errors and warnings of evaluation.
+-- | Does the same as 'check', and gives the frames for each machine of the job too.
+checkedFrames ::
+  Job ->
+  LoadedProgram ->
+  Result Report Report (Analysis, [(Machine, Frame.FrameProgram)])
+checkedFrames job loaded = checkEvaluated job (evaluate (values job) loaded)
+
+-- | Continues 'checkedFrames' after 'evaluate'. The result includes the errors and warnings of
+-- evaluation.
 checkEvaluated ::
   Job ->
   Result Report Report (Checked.Program, Part) ->

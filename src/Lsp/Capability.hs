@@ -88,6 +88,9 @@ initializeResult =
                 ],
             "hoverProvider" .= True,
             "definitionProvider" .= True,
+            "referencesProvider" .= True,
+            "documentHighlightProvider" .= True,
+            "renameProvider" .= object ["prepareProvider" .= True],
             "documentSymbolProvider" .= True,
             "completionProvider" .= object ["triggerCharacters" .= ["(", "," :: Text]],
             "signatureHelpProvider"

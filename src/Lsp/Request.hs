@@ -11,23 +11,23 @@ where
 
 import Base.Region (Region (..))
 import Base.Region qualified as Region
-import Data.Aeson (Value (..), object, toJSON, withObject, (.:), (.=))
+import Data.Aeson (Value (Null), object, toJSON, withObject, (.:), (.=))
 import Data.Aeson.Key qualified as Key
 import Data.Maybe qualified as Maybe
 import Data.Text (Text)
 import Data.Text qualified as Text
 import Lsp.Capability (Client (..))
 import Lsp.CompletionRequest qualified as CompletionRequest
-import Lsp.DescriptionRequest qualified as DescriptionRequest
+import Lsp.DescriptionKeyRequest qualified as DescriptionKeyRequest
 import Lsp.Diagnostic qualified as Diagnostic
 import Lsp.Document (Document (..))
 import Lsp.Document qualified as Document
 import Lsp.Location qualified as Location
+import Lsp.NameRequest qualified as NameRequest
 import Lsp.Position qualified as Position
-import Lsp.Subject (Method, Subject (..), fenced, markup, offsetIn, source)
+import Lsp.Subject (Method, Subject (..), source)
 import Lsp.Uri (Uri (..))
 import Query.Formatting qualified as Formatting
-import Query.Name qualified as Name
 import Query.Snapshot qualified as Snapshot
 import Query.Symbol (SymbolKind (..))
 import Query.Symbol qualified as Symbol
@@ -42,7 +42,7 @@ method name = ofKind <$> lookup name table
   where
     ofKind ofPrograms client subject
       | Document.isDescription (document subject) =
-        case lookup name DescriptionRequest.table of
+        case lookup name DescriptionKeyRequest.table of
           Just ofDescriptions -> ofDescriptions client subject
           Nothing -> const (pure Null)
       | otherwise = ofPrograms client subject
@@ -72,45 +72,17 @@ table :: [(Text, Method)]
 table =
   [ ("textDocument/completion", CompletionRequest.completion),
     ("textDocument/signatureHelp", CompletionRequest.signatureHelp),
-    ("textDocument/hover", hover),
-    ("textDocument/definition", definition),
+    ("textDocument/hover", NameRequest.hover),
+    ("textDocument/definition", NameRequest.definition),
+    ("textDocument/references", NameRequest.references),
+    ("textDocument/documentHighlight", NameRequest.highlights),
+    ("textDocument/prepareRename", NameRequest.prepareRename),
+    ("textDocument/rename", NameRequest.rename),
     ("textDocument/documentSymbol", symbols),
     ("textDocument/formatting", formatting),
     ("textDocument/codeAction", codeActions),
-    ("partc/at", atPosition)
+    ("partc/at", NameRequest.atPosition)
   ]
-
-hover :: Method
-hover client subject params =
-  maybe Null shown . Name.hover (now subject) (sound subject) <$> offsetIn subject params
-  where
-    shown h =
-      object ["contents" .= contents h, "range" .= Position.range (source subject) (Name.place h)]
-    contents h =
-      markup client (fenced (line h) <> "\n" <> Name.meaning h) (line h <> "\n" <> Name.meaning h)
-    line h = Name.name h <> maybe "" (" = " <>) (Name.value h)
-
--- | Name at a position with its value and meaning: a title and the rows of a table, for a panel
--- beside the text.
-atPosition :: Method
-atPosition _ subject params =
-  maybe Null shown . Name.hover (now subject) (sound subject) <$> offsetIn subject params
-  where
-    shown h =
-      object
-        [ "title" .= Name.name h,
-          "rows"
-            .= ( [["value", value] | Just value <- [Name.value h]]
-                   <> [["meaning", Name.meaning h]]
-               )
-        ]
-
-definition :: Method
-definition _ subject params =
-  maybe Null shown . Name.definition (now subject) (sound subject) <$> offsetIn subject params
-  where
-    shown target =
-      Location.location (uri (document subject)) (Name.source target) (Name.region target)
 
 symbols :: Method
 symbols client subject _ = pure (toJSON (map shown (Symbol.symbols (now subject))))

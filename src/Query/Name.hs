@@ -9,6 +9,11 @@ module Query.Name
     hover,
     Target (..),
     definition,
+
+    -- * Mentions under the cursor
+    Found (..),
+    found,
+    isOwn,
   )
 where
 

@@ -2,7 +2,6 @@
 module Lsp.CompletionSpec (spec) where
 
 import Data.Aeson (Value (..), object, (.=))
-import Data.Foldable (toList)
 import Data.Text (Text)
 import Lsp.Talk
 import Test.Hspec
@@ -39,7 +38,7 @@ spec = do
     let text = "part p\nlet a = polar(1, \n"
         answer = requested "textDocument/signatureHelp" capable text (1, 17)
     field "activeParameter" answer `shouldBe` Number 1
-    map (field "label") (list (field "signatures" answer))
+    map (field "label") (listed (field "signatures" answer))
       `shouldBe` [String "polar(length, angle)"]
   it "answers null outside of calls and in comments" $ do
     requested "textDocument/signatureHelp" capable "part p\n" (0, 3) `shouldBe` Null
@@ -47,10 +46,7 @@ spec = do
   where
     letters = "part p\nlet 𝑥𝑥 = flo\n"
     completed client text position =
-      list (field "items" (requested "textDocument/completion" client text position))
-    list v = case v of
-      Array xs -> toList xs
-      _ -> []
+      listed (field "items" (requested "textDocument/completion" client text position))
 
 -- | The capabilities of a client with snippets and Markdown.
 capable :: Value

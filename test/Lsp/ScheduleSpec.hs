@@ -81,10 +81,7 @@ spec = do
           cancel = Notification "window/workDoneProgress/cancel"
           stopped = foldl (\t token -> say (cancel (object ["token" .= token])) t) talk tokens
       map (\(_, _, found) -> map message found) (everyPublished stopped)
-        `shouldBe` [ [ "The analysis was stopped. Later mistakes are missing here. partc check has no \
-                       \limit."
-                     ]
-                   ]
+        `shouldBe` [["The analysis was stopped. " <> incomplete]]
       drop 1 (orders stopped) `shouldBe` [Nothing]
     it "is stopped after a minute" $ do
       let talk = pause 60030 (replace addressOf 2 wrong (slow settledRight))
@@ -133,6 +130,10 @@ spec = do
     texts incoming = case incoming of
       Notification _ params | String t <- field "t" params -> [t]
       _ -> []
+
+-- | The last sentences of the warning about a stopped analysis.
+incomplete :: Text
+incomplete = "Later mistakes are missing here. partc check has no limit."
 
 -- | A session with a right program, whose analysis has ended. Earlier messages are kept.
 settledRight :: Talk

@@ -25,6 +25,7 @@ module Lsp.Talk
     about,
     at,
     field,
+    listed,
     units,
     positionIn,
   )
@@ -230,7 +231,7 @@ published talk = concat (zipWith settledOnly all' (map Just (drop 1 all') <> [No
 -- | All published diagnostics in order, each set with its address and version.
 everyPublished :: Talk -> [(Value, Value, [Squiggle])]
 everyPublished talk =
-  [ (field "uri" p, field "version" p, map squiggle (list (field "diagnostics" p)))
+  [ (field "uri" p, field "version" p, map squiggle (listed (field "diagnostics" p)))
     | Send (Notify "textDocument/publishDiagnostics" p) <- heard talk
   ]
 
@@ -283,8 +284,9 @@ field key v = case v of
   Object o | Just x <- KeyMap.lookup key o -> x
   _ -> Null
 
-list :: Value -> [Value]
-list v = case v of
+-- | The listed of a list, or none.
+listed :: Value -> [Value]
+listed v = case v of
   Array xs -> toList xs
   _ -> []
 

@@ -123,11 +123,8 @@ broken = do
     let sound = drawn <> "mill rim outside {\n  approach (-9, 0)\n  retract (-9, 0)\n}\n"
         text = Text.replace "let width = 12 mm" "let width = (12 mm" drawn <> "clearance ^"
         (now, offset) = marked text
-    [ label i
-      | Just c <- [Completion.completion now (Just (look sound)) offset],
-        i <- take 1 (items c)
-      ]
-      `shouldBe` ["width"]
+        found = Completion.completion now (Just (look sound)) offset
+    fmap (map label . take 1 . items) found `shouldBe` Just ["width"]
   it "works after an open parenthesis that the text never closes" $
     labels (drawn <> "let a = ((1, 2\nmill ^") `shouldSatisfy` all' ["rim"]
 

@@ -1,5 +1,5 @@
 -- | The requests about machine descriptions: completion and hover of their keys.
-module Lsp.DescriptionRequest
+module Lsp.DescriptionKeyRequest
   ( table,
   )
 where

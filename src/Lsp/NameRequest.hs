@@ -1,0 +1,122 @@
+-- | The requests about the name under the cursor.
+module Lsp.NameRequest
+  ( hover,
+    atPosition,
+    definition,
+    references,
+    highlights,
+    prepareRename,
+    rename,
+  )
+where
+
+import Base.Region (Region)
+import Base.Region qualified as Region
+import Data.Aeson (Value (..), object, toJSON, withObject, (.:), (.:?), (.=))
+import Data.Aeson.Key qualified as Key
+import Data.Containers.ListUtils (nubOrd)
+import Data.Text qualified as Text
+import Lsp.Document (Document (..))
+import Lsp.Location qualified as Location
+import Lsp.Position qualified as Position
+import Lsp.Subject (Method, Subject (..), fenced, markup, offsetIn, rangeOf, source, textEdit)
+import Lsp.Uri (Uri (..))
+import Lsp.Uri qualified as Uri
+import Query.Name qualified as Name
+import Query.Reference (References (places))
+import Query.Reference qualified as Reference
+import Query.Rename qualified as Rename
+
+-- | The request @textDocument/hover@.
+hover :: Method
+hover client subject params =
+  maybe Null shown . Name.hover (now subject) (sound subject) <$> offsetIn subject params
+  where
+    shown h = object ["contents" .= contents h, "range" .= rangeOf subject (Name.place h)]
+    contents h =
+      markup client (fenced (line h) <> "\n" <> Name.meaning h) (line h <> "\n" <> Name.meaning h)
+    line h = Name.name h <> maybe "" (" = " <>) (Name.value h)
+
+-- | The request @partc/at@: the name at a position with its value and meaning, as a title and the
+-- rows of a table, for a panel beside the text.
+atPosition :: Method
+atPosition _ subject params =
+  maybe Null shown . Name.hover (now subject) (sound subject) <$> offsetIn subject params
+  where
+    shown h =
+      object
+        [ "title" .= Name.name h,
+          "rows"
+            .= ( [["value", value] | Just value <- [Name.value h]]
+                   <> [["meaning", Name.meaning h]]
+               )
+        ]
+
+-- | The request @textDocument/definition@.
+definition :: Method
+definition _ subject params =
+  maybe Null shown . Name.definition (now subject) (sound subject) <$> offsetIn subject params
+  where
+    shown target =
+      Location.location (uri (document subject)) (Name.source target) (Name.region target)
+
+-- | The request @textDocument/references@. The client says if it wants the definition, too.
+references :: Method
+references _ subject params = do
+  at <- offsetIn subject params
+  context <- withObject "parameters" (.:? "context") params
+  isWanted <- maybe (pure True) (withObject "a context" (.: "includeDeclaration")) context
+  let shown found =
+        [ Location.location (uri (document subject)) (source subject) r
+          | r <- places found,
+            isWanted || Just r /= Reference.definition found
+        ]
+  pure (maybe Null (toJSON . shown) (Reference.references (now subject) (sound subject) at))
+
+-- | The request @textDocument/documentHighlight@: the mentions in the document itself.
+highlights :: Method
+highlights _ subject params =
+  maybe Null (toJSON . map shown . own) . Reference.references (now subject) (sound subject)
+    <$> offsetIn subject params
+  where
+    own found = filter (isInDocument subject) (places found)
+    shown r = object ["range" .= rangeOf subject r, "kind" .= (1 :: Int)]
+
+-- | True if a region lies in the document itself, and not in an imported file.
+isInDocument :: Subject -> Region -> Bool
+isInDocument subject r = Position.fileOf (source subject) r == Region.mainFile (source subject)
+
+-- | The request @textDocument/prepareRename@.
+prepareRename :: Method
+prepareRename _ subject params = do
+  at <- offsetIn subject params
+  case Rename.prepare (now subject) at of
+    Left why -> fail (Text.unpack why)
+    Right (region, name) ->
+      pure (object ["range" .= rangeOf subject region, "placeholder" .= name])
+
+-- | The request @textDocument/rename@. It is refused with the reason if the renaming would change
+-- the meaning of the program.
+rename :: Method
+rename _ subject params = do
+  at <- offsetIn subject params
+  new <- withObject "parameters" (.: "newName") params
+  case Rename.rename (now subject) at new of
+    Left why -> fail (Text.unpack why)
+    Right regions ->
+      pure
+        ( object
+            [ "changes"
+                .= object
+                  [ Key.fromText address
+                      .= [textEdit subject r new | r <- regions, fileOf r == file]
+                    | file <- nubOrd (map fileOf regions),
+                      let Uri address = addressOf file
+                  ]
+            ]
+        )
+  where
+    fileOf = Position.fileOf (source subject)
+    addressOf file
+      | file == Region.mainFile (source subject) = uri (document subject)
+      | otherwise = Uri.fromPath file
