@@ -42,7 +42,7 @@ NPM_CI := $(NPM) ci --ignore-scripts --no-audit --no-fund
 banner = @printf '== %s\n' '$(1)'
 quietly = @bash scripts/quietly.sh
 
-.PHONY: mutants pictures tree-sitter-test editors-test vsix vscode-test help setup build test check format format-check lint commits bench demo install deb dist deb-try clean
+.PHONY: mutants pictures tree-sitter-test editors-test client-test vsix vscode-test help setup build test check format format-check lint commits bench demo install deb dist deb-try clean
 
 help: ## this list
 	@printf 'make demo|test|...\n\n'
@@ -157,6 +157,10 @@ vsix: needs-vscode ## pack the extension for VS Code: build/partc-VERSION.vsix
 	@printf 'extension: build/partc-%s.vsix\n' "$$(node -p 'require("./editors/vscode/package.json").version')"
 
 # With PARTC=FILE, this built program is tested, and none is built.
+client-test: build ## drive the language server by a client in Python; fetches its libraries
+	$(call banner,client)
+	@bash scripts/client-test.sh "$(PARTC)"
+
 vscode-test: needs-vscode $(if $(filter command,$(origin PARTC)),,build) ## test the extension for VS Code with node, without VS Code
 	$(call banner,libraries from npm)
 	$(quietly) $(NPM_CI)

@@ -69,7 +69,7 @@ table =
     Layer
       Folder
       "Query"
-      (Only ["Report", "Surface", "Checked", "Geometry", "Part", "Toolpath", "Compile"]),
+      (Only ["Report", "Surface", "Checked", "Geometry", "Part", "Toolpath", "Compile", "Draw"]),
     Layer Folder "Lsp" (Only ["Query"]),
     Layer Folder "Cli" Above,
     Layer Program "app" Above

@@ -193,7 +193,8 @@ repeated env counter list body = do
     Inference.define (value counter) binding
     mapM_ (mentionDefinition counter) (meaningOf binding)
     inBlock env body
-  let make (_, list') sol = Checked.Repeat (value counter) (list' sol) (resolveAll sol body')
+  d <- maybe (pure Dimension.none) (fmap Type.dimensionOf . Inference.resolved . fst) checked
+  let make (_, list') sol = Checked.Repeat counter (sol d) (list' sol) (resolveAll sol body')
   pure (make <$> checked)
 
 -- Definitions

@@ -137,7 +137,8 @@ data Statement_
   | Spindle Spin
   | Coolant Switch
   | Auxiliary Expr
-  | Repeat Name Expr [Statement]
+  | -- | the variable, the dimension of the quantities in its values, the list, and the block
+    Repeat (Located Name) Dimension Expr [Statement]
   | When Expr [Statement] [Statement]
   | With Expr [Statement]
   deriving stock (Eq, Show)

@@ -21,6 +21,10 @@ data Client = Client
     hierarchical :: Bool,
     -- | true if a hover may be Markdown
     markdown :: Bool,
+    -- | true if the documentation of a completion may be Markdown
+    completionMarkdown :: Bool,
+    -- | true if the documentation of a signature may be Markdown
+    signatureMarkdown :: Bool,
     -- | true if a diagnostic may have related information, with ranges of its own
     related :: Bool,
     -- | true if the answer to a request for code actions may contain actions, not only commands
@@ -46,9 +50,10 @@ fromInitialize :: Value -> Client
 fromInitialize params =
   Client
     { hierarchical = at ["documentSymbol", "hierarchicalDocumentSymbolSupport"] == Just (Bool True),
-      markdown = case at ["hover", "contentFormat"] of
-        Just (Array kinds) -> String "markdown" `elem` toList kinds
-        _ -> False,
+      markdown = knowsMarkdown ["hover", "contentFormat"],
+      completionMarkdown = knowsMarkdown ["completion", "completionItem", "documentationFormat"],
+      signatureMarkdown =
+        knowsMarkdown ["signatureHelp", "signatureInformation", "documentationFormat"],
       actions = isJust (at ["codeAction", "codeActionLiteralSupport"]),
       related = at ["publishDiagnostics", "relatedInformation"] == Just (Bool True),
       progress = inAll ["window", "workDoneProgress"] == Just (Bool True),
@@ -62,6 +67,9 @@ fromInitialize params =
         _ -> Nothing
     }
   where
+    knowsMarkdown keys = case at keys of
+      Just (Array kinds) -> String "markdown" `elem` toList kinds
+      _ -> False
     inAll keys = within ("capabilities" : keys) params
     at keys = within (["capabilities", "textDocument"] <> keys) params
 

@@ -19,9 +19,10 @@ import Query.Snippet qualified as Snippet
 
 -- | The request @textDocument/completion@.
 completion :: Method
-completion client subject params =
+completion whole subject params =
   maybe Null shown . Completion.completion (now subject) (sound subject) <$> offsetIn subject params
   where
+    client = whole {markdown = completionMarkdown whole}
     shown found =
       object
         [ "isIncomplete" .= False,
@@ -90,9 +91,10 @@ number kind = case kind of
 
 -- | The request @textDocument/signatureHelp@.
 signatureHelp :: Method
-signatureHelp client subject params =
+signatureHelp whole subject params =
   maybe Null shown . Signature.signature (now subject) (sound subject) <$> offsetIn subject params
   where
+    client = whole {markdown = signatureMarkdown whole}
     shown s =
       object
         [ "signatures" .= map (form s) (Signature.forms s),

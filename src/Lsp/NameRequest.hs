@@ -1,7 +1,6 @@
 -- | The requests about the name under the cursor.
 module Lsp.NameRequest
   ( hover,
-    atPosition,
     definition,
     references,
     highlights,
@@ -16,12 +15,16 @@ import Data.Aeson (Value (..), object, toJSON, withObject, (.:), (.:?), (.=))
 import Data.Aeson.Key qualified as Key
 import Data.Containers.ListUtils (nubOrd)
 import Data.Text qualified as Text
+import Lsp.Capability (Client (..))
 import Lsp.Document (Document (..))
 import Lsp.Location qualified as Location
+import Lsp.ManualLink qualified as ManualLink
 import Lsp.Position qualified as Position
 import Lsp.Subject (Method, Subject (..), fenced, markup, offsetIn, rangeOf, source, textEdit)
 import Lsp.Uri (Uri (..))
 import Lsp.Uri qualified as Uri
+import Query.Description (Description (..))
+import Query.Description qualified as Description
 import Query.Name qualified as Name
 import Query.Reference (References (places))
 import Query.Reference qualified as Reference
@@ -30,27 +33,18 @@ import Query.Rename qualified as Rename
 -- | The request @textDocument/hover@.
 hover :: Method
 hover client subject params =
-  maybe Null shown . Name.hover (now subject) (sound subject) <$> offsetIn subject params
+  maybe Null shown . Description.description (now subject) (sound subject)
+    <$> offsetIn subject params
   where
-    shown h = object ["contents" .= contents h, "range" .= rangeOf subject (Name.place h)]
-    contents h =
-      markup client (fenced (line h) <> "\n" <> Name.meaning h) (line h <> "\n" <> Name.meaning h)
-    line h = Name.name h <> maybe "" (" = " <>) (Name.value h)
-
--- | The request @partc/at@: the name at a position with its value and meaning, as a title and the
--- rows of a table, for a panel beside the text.
-atPosition :: Method
-atPosition _ subject params =
-  maybe Null shown . Name.hover (now subject) (sound subject) <$> offsetIn subject params
-  where
-    shown h =
-      object
-        [ "title" .= Name.name h,
-          "rows"
-            .= ( [["value", value] | Just value <- [Name.value h]]
-                   <> [["meaning", Name.meaning h]]
-               )
-        ]
+    shown d = object ["contents" .= contents d, "range" .= rangeOf subject (region d)]
+    contents d = markup client (marked d) (Text.intercalate "\n" (line d : texts d))
+    marked d = fenced (line d) <> "\n" <> Text.intercalate "\n\n" (texts d)
+    line d = title d <> if length (values d) == 1 then " = " <> Text.concat (values d) else ""
+    texts d =
+      [sentence d | sentence d /= ""]
+        <> [Text.intercalate lineEnd [k <> ": " <> v | (k, v) <- facts d] | not (null (facts d))]
+        <> [ManualLink.sentence client e | Just e <- [entry d]]
+    lineEnd = if markdown client then "  \n" else "\n"
 
 -- | The request @textDocument/definition@.
 definition :: Method

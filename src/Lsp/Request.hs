@@ -24,6 +24,7 @@ import Lsp.Document (Document (..))
 import Lsp.Document qualified as Document
 import Lsp.Location qualified as Location
 import Lsp.NameRequest qualified as NameRequest
+import Lsp.PanelRequest qualified as PanelRequest
 import Lsp.Position qualified as Position
 import Lsp.Subject (Method, Subject (..), source)
 import Lsp.Uri (Uri (..))
@@ -81,7 +82,7 @@ table =
     ("textDocument/documentSymbol", symbols),
     ("textDocument/formatting", formatting),
     ("textDocument/codeAction", codeActions),
-    ("partc/at", NameRequest.atPosition)
+    ("partc/at", PanelRequest.atPosition)
   ]
 
 symbols :: Method

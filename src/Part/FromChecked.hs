@@ -142,7 +142,7 @@ step state (Located at s) = case s of
   Checked.Coolant switch -> command (CoolantTo switch)
   Checked.Auxiliary e ->
     keep (whole env Parameter.AuxiliaryCommand (1, 99) e) (command . Auxiliary)
-  Checked.Repeat name list body -> within (itemsOf env list) (repeated name body)
+  Checked.Repeat name d list body -> within (itemsOf env list) (repeated name d body)
   Checked.When e body others ->
     within (Expression.evaluate env e) $ \v inside ->
       foldl step inside (if Expression.isTrue v then body else others)
@@ -220,12 +220,14 @@ itemsOf env list = do
   vs <$ Evaluation.spend (region list) (length vs)
 
 -- | Evaluates the block @body@ once for each value in @vs@, with the local name @name@ bound to
--- this value. Names that one repetition defines are unknown in the next one.
-repeated :: Name -> [Checked.Statement] -> [Value] -> State -> State
-repeated name body vs state = foldl once state vs
+-- this value. Names that one repetition defines are unknown in the next one. @d@ is the dimension
+-- of the numbers in the values.
+repeated :: Located Name -> Dimension -> [Checked.Statement] -> [Value] -> State -> State
+repeated (Located at name) d body vs state = foldl once state vs
   where
     env = environment (context state)
-    once before v = foldl step (withEnvironment before (Expression.bind name v env)) body
+    once before v = foldl step (withEnvironment (kept v before) (Expression.bind name v env)) body
+    kept v before = before {readings' = (at, Expression.written d v) : readings' before}
 
 -- | Evaluates the block @body@, and applies the transformation @placing@ to its operations.
 transformed :: [Checked.Statement] -> Transformation -> State -> State

@@ -7,6 +7,7 @@
 module Query.Name
   ( Hover (..),
     hover,
+    isBuiltIn,
     Target (..),
     definition,
 
@@ -30,8 +31,16 @@ import Query.RegionMap qualified as RegionMap
 import Query.Snapshot (Snapshot)
 import Query.Snapshot qualified as Snapshot
 
--- | The name under the cursor: its region, its value if it has one, and its meaning in words.
-data Hover = Hover {place :: Region, name :: Text, value :: Maybe Text, meaning :: Text}
+-- | The name under the cursor: its region, its values, and its meaning in words.
+data Hover = Hover
+  { place :: Region,
+    name :: Text,
+    -- | its values in the order of the program; a name in a repetition has one for each time
+    values :: [Text],
+    meaning :: Text,
+    -- | the region of the name in its definition; absent for a name of the language
+    definedAt :: Maybe Region
+  }
   deriving stock (Eq, Show)
 
 -- | A region in one of the files of a program, to which an editor can jump.
@@ -46,10 +55,19 @@ hover now before at = shown <$> listToMaybe (found now before at)
       Hover
         { place,
           name = Mention.word mention,
-          value =
-            Mention.definition mention >>= \d -> lookup d (Mention.values (Snapshot.facts origin)),
-          meaning = Mention.meaning mention
+          values =
+            reverse
+              [ v
+                | (at', v) <- Mention.values (Snapshot.facts origin),
+                  Just at' == Mention.definition mention
+              ],
+          meaning = Mention.meaning mention,
+          definedAt = Mention.definition mention
         }
+
+-- | True for a name of the language.
+isBuiltIn :: Hover -> Bool
+isBuiltIn = null . definedAt
 
 -- | The region that defines the name at the offset @at@ of the present text. @now@ is the snapshot
 -- of the present text, and @before@ the last snapshot without errors. 'Nothing' if there is no name
