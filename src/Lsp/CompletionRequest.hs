@@ -11,7 +11,7 @@ import Data.Text (Text)
 import Data.Text qualified as Text
 import Lsp.Capability (Client (..))
 import Lsp.ManualLink qualified as ManualLink
-import Lsp.Subject (Method, Subject (..), fenced, markup, offsetIn, textEdit)
+import Lsp.Subject (Method, Subject (..), fenced, offsetIn, textEdit)
 import Query.Completion (Completion (..), CompletionItem (..), CompletionKind (..))
 import Query.Completion qualified as Completion
 import Query.Signature qualified as Signature
@@ -19,10 +19,9 @@ import Query.Snippet qualified as Snippet
 
 -- | The request @textDocument/completion@.
 completion :: Method
-completion whole subject params =
+completion client subject params =
   maybe Null shown . Completion.completion (now subject) (sound subject) <$> offsetIn subject params
   where
-    client = whole {markdown = completionMarkdown whole}
     shown found =
       object
         [ "isIncomplete" .= False,
@@ -59,12 +58,18 @@ isMarked client item = snippets client && "$" `Text.isInfixOf` snippet item
 documentation :: Client -> CompletionItem -> Maybe Value
 documentation client item
   | null texts = Nothing
-  | otherwise = Just (markup client (Text.intercalate "\n\n" texts) (Text.intercalate "\n" plain))
+  | completionMarkdown client = Just (inMarkdown (Text.intercalate "\n\n" texts))
+  | otherwise = Just (String (Text.intercalate "\n" plain))
   where
-    about' = [ManualLink.sentence client entry | Just entry <- [about item]]
+    marked = client {markdown = completionMarkdown client}
+    about' = [ManualLink.sentence marked entry | Just entry <- [about item]]
     listed = take mostForms (forms' item)
     texts = [fenced (Text.intercalate "\n" listed) | not (null listed)] <> about'
     plain = listed <> about'
+
+-- | A text in Markdown.
+inMarkdown :: Text -> Value
+inMarkdown text = object ["kind" .= ("markdown" :: Text), "value" .= text]
 
 -- | The largest number of forms of a function that its documentation shows.
 mostForms :: Int
@@ -91,10 +96,9 @@ number kind = case kind of
 
 -- | The request @textDocument/signatureHelp@.
 signatureHelp :: Method
-signatureHelp whole subject params =
+signatureHelp client subject params =
   maybe Null shown . Signature.signature (now subject) (sound subject) <$> offsetIn subject params
   where
-    client = whole {markdown = signatureMarkdown whole}
     shown s =
       object
         [ "signatures" .= map (form s) (Signature.forms s),
@@ -106,5 +110,9 @@ signatureHelp whole subject params =
         [ "label" .= text,
           "parameters" .= [object ["label" .= p] | p <- parameters]
         ]
-          <> ["documentation" .= markup client d d | Just d <- [about' s]]
-    about' s = ManualLink.sentence client <$> Signature.about s
+          <> ["documentation" .= documented d | Just d <- [about' s]]
+    documented d
+      | signatureMarkdown client = inMarkdown d
+      | otherwise = String d
+    marked = client {markdown = signatureMarkdown client}
+    about' s = ManualLink.sentence marked <$> Signature.about s

@@ -52,9 +52,13 @@ spec = do
 capable :: Value
 capable =
   object
-    [ "completion" .= object ["completionItem" .= object ["snippetSupport" .= True]],
-      "hover" .= object ["contentFormat" .= ["markdown" :: Text]]
+    [ "completion" .= object ["completionItem" .= object item],
+      "hover" .= object ["contentFormat" .= ["markdown" :: Text]],
+      "signatureHelp"
+        .= object ["signatureInformation" .= object ["documentationFormat" .= ["markdown" :: Text]]]
     ]
+  where
+    item = ["snippetSupport" .= True, "documentationFormat" .= ["markdown" :: Text]]
 
 -- | The answer to a request about a position of a text.
 requested :: Text -> Value -> Text -> (Int, Int) -> Value

@@ -185,6 +185,35 @@
                                                         (eglot-imenu)))
                               t))
 
+  ;; A misspelt name is mended by its fix.
+  (goto-char (point-max))
+  (search-backward "длина)")
+  (replace-match "длинна)")
+  (search-backward "длинна")
+  (eglot--signal-textDocument/didChange)
+  (try-await "the diagnostic of the misspelt name" (lambda () (= 1 (length (try-shown)))))
+  (let ((actions (jsonrpc-request
+                  (eglot-current-server) :textDocument/codeAction
+                  (list :textDocument (eglot--TextDocumentIdentifier)
+                        :range (list :start (eglot--pos-to-lsp-position (point))
+                                     :end (eglot--pos-to-lsp-position (point)))
+                        :context (list :diagnostics [])))))
+    (eglot--apply-workspace-edit (plist-get (elt actions 0) :edit))
+    (eglot--signal-textDocument/didChange)
+    (try-await "the end of the misspelt name" (lambda () (null (try-shown)))))
+
+  ;; The name is completed after its first letters.
+  (goto-char (point-max))
+  (search-backward "длина)")
+  (replace-match "дли)")
+  (goto-char (1- (point)))
+  (eglot--signal-textDocument/didChange)
+  (let ((table (nth 2 (eglot-completion-at-point))))
+    (try-equal "completion" t (and (member "длина" (all-completions "дли" table)) t)))
+  (insert "на")
+  (eglot--signal-textDocument/didChange)
+  (try-await "the end of the diagnostics" (lambda () (null (try-shown))))
+
   (when (eglot--server-capable :renameProvider)
     (goto-char (point-min))
     (search-forward "let длина")

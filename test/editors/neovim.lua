@@ -93,6 +93,45 @@ await('the jump to the definition', function()
   return vim.fn.line('.') == 7
 end)
 
+-- A misspelt name is mended by its fix.
+vim.cmd([[%s/(длина, длина)/(длина, длинна)/]])
+await('the diagnostic of the misspelt name', function()
+  return #vim.diagnostic.get(0) == 1
+end)
+local at = vim.diagnostic.get(0)[1]
+vim.fn.cursor(at.lnum + 1, at.col + 1)
+vim.ui.select = function(items, _, choose)
+  choose(items[1], 1)
+end
+vim.lsp.buf.code_action()
+await('the end of the misspelt name', function()
+  return vim.fn.search('длинна', 'nw') == 0 and #vim.diagnostic.get(0) == 0
+end)
+
+-- The name is completed after its first letters.
+vim.cmd([[%s/(длина, длина)/(длина, дли)/]])
+vim.fn.search('дли)')
+vim.fn.cursor(vim.fn.line('.'), vim.fn.col('.') + #'дли')
+local answer = vim.lsp.buf_request_sync(0, 'textDocument/completion', vim.lsp.util.make_position_params(), 20000)
+local offered = {}
+for _, one in pairs(answer) do
+  for _, item in ipairs(vim.lsp.util.extract_completion_items(one.result)) do
+    offered[item.label] = item
+  end
+end
+equal('completion', true, offered['длина'] ~= nil)
+vim.lsp.util.apply_text_edits({ offered['длина'].textEdit }, 0, 'utf-16')
+equal('text after completion', 'let c = (длина, длина)', vim.fn.getline('.'))
+
+-- The name is changed everywhere.
+vim.fn.cursor(7, 5)
+vim.lsp.buf.rename('length_of_part')
+await('the change of the name', function()
+  return vim.fn.search('длина', 'nw') == 0
+end)
+vim.cmd('write')
+equal('partc check after the change of the name', {}, reported(file))
+
 vim.lsp.buf.formatting_sync({}, 20000)
 vim.cmd('write')
 equal('partc fmt --check', '', vim.fn.system({ 'partc', 'fmt', '--check', file }))
