@@ -1,6 +1,7 @@
 -- | The requests about the structure of a document: symbols, colours, hints, links and lenses.
 module Lsp.OutlineRequest
   ( symbols,
+    workspaceSymbols,
     semanticTokens,
     inlayHints,
     documentLinks,
@@ -13,6 +14,7 @@ where
 import Base.Region (Region (..))
 import Base.Region qualified as Region
 import Data.Aeson (Value (..), object, toJSON, withObject, (.:), (.=))
+import Data.Aeson.Types (Parser)
 import Data.Text (Text)
 import Data.Text qualified as Text
 import Lsp.Capability (Client (..))
@@ -30,7 +32,7 @@ import Query.Selection qualified as Selection
 import Query.SemanticToken (SemanticToken (..))
 import Query.SemanticToken qualified as SemanticToken
 import Query.Snapshot qualified as Snapshot
-import Query.Symbol (SymbolKind (..))
+import Query.Symbol (DocumentSymbol, SymbolKind (..))
 import Query.Symbol qualified as Symbol
 
 -- | The request @textDocument/documentSymbol@.
@@ -40,7 +42,7 @@ symbols client subject _ = pure (toJSON shown)
     found = Symbol.symbols (now subject)
     shown
       | hierarchical client = map nested found
-      | otherwise = map flat (concatMap Symbol.flattened found)
+      | otherwise = map (flatSymbol subject) (concatMap Symbol.flattened found)
     nested s =
       object $
         [ "name" .= Symbol.name s,
@@ -50,13 +52,27 @@ symbols client subject _ = pure (toJSON shown)
           "selectionRange" .= rangeOf subject (Symbol.selection s)
         ]
           <> ["children" .= map nested (Symbol.children s) | not (null (Symbol.children s))]
-    flat s =
-      object
-        [ "name" .= Symbol.name s,
-          "kind" .= number (Symbol.kind s),
-          "location"
-            .= Location.location (uri (document subject)) (source subject) (Symbol.whole s)
+
+-- | The request @workspace/symbol@: the symbols of all open documents that fit a query.
+workspaceSymbols :: [Subject] -> Value -> Parser Value
+workspaceSymbols subjects = withObject "parameters" $ \o -> do
+  query <- o .: "query"
+  pure
+    ( toJSON
+        [ flatSymbol subject s
+          | subject <- subjects,
+            s <- Symbol.matching query (now subject)
         ]
+    )
+
+-- | A symbol with the location of its statement.
+flatSymbol :: Subject -> DocumentSymbol -> Value
+flatSymbol subject s =
+  object
+    [ "name" .= Symbol.name s,
+      "kind" .= number (Symbol.kind s),
+      "location" .= Location.location (uri (document subject)) (source subject) (Symbol.whole s)
+    ]
 
 -- | The protocol's number of a kind of symbol.
 number :: SymbolKind -> Int

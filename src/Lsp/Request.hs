@@ -6,12 +6,14 @@ module Lsp.Request
     method,
     Need (..),
     need,
+    workspaceMethod,
   )
 where
 
 import Base.Region (Region (..))
 import Data.Aeson (Value (Null), object, toJSON, withObject, (.:), (.=))
 import Data.Aeson.Key qualified as Key
+import Data.Aeson.Types (Parser)
 import Data.Text (Text)
 import Data.Text qualified as Text
 import Lsp.Capability (Client (..))
@@ -69,6 +71,11 @@ need name
         "partc/at"
       ]
     late = ["textDocument/codeAction", "textDocument/codeLens"]
+
+-- | The function for a method of the protocol that is about all open documents, such as
+-- @workspace/symbol@. Nothing if the server does not support this method.
+workspaceMethod :: Text -> Maybe ([Subject] -> Value -> Parser Value)
+workspaceMethod name = lookup name [("workspace/symbol", OutlineRequest.workspaceSymbols)]
 
 table :: [(Text, Method)]
 table =

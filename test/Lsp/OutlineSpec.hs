@@ -2,8 +2,14 @@
 module Lsp.OutlineSpec (spec) where
 
 import Data.Aeson (Value (..), object, toJSON, (.=))
+import Data.Aeson.Types qualified as Aeson (parseMaybe)
 import Data.Text (Text)
+import Lsp.Document qualified as Document
+import Lsp.Request (Subject (..))
+import Lsp.Request qualified as Request
 import Lsp.Talk
+import Lsp.Uri (Uri (..))
+import Query.Marked (look)
 import Test.Hspec
 
 spec :: Spec
@@ -16,6 +22,21 @@ spec = do
     concatMap (names . field "children") (listed (blocks (object ["documentSymbol" .= nested])))
       `shouldBe` [String "a"]
     names (blocks (object [])) `shouldBe` [String "for k in 1..2", String "a"]
+  it "symbols of all open documents are found by letters of their names" $ do
+    let opened uri text =
+          Subject
+            { document = Document.open (Uri uri) Nothing text,
+              now = look text,
+              sound = Nothing,
+              proven = Nothing
+            }
+        subjects =
+          [opened "file:///a" "let pin = 1\n", opened "file:///b" "let span = 1\nlet c = 2\n"]
+        answer = do
+          found <- Request.workspaceMethod "workspace/symbol"
+          Aeson.parseMaybe (found subjects) (object ["query" .= ("PN" :: Text)])
+    fmap (\v -> [(field "name" s, field "uri" (field "location" s)) | s <- listed v]) answer
+      `shouldBe` Just [(String "pin", String "file:///a"), (String "span", String "file:///b")]
   it "tokens are relative to one another and count UTF-16 code units" $
     field "data" (simple "textDocument/semanticTokens/full" [] "let 𝑥 = 1\nlet b = 𝑥\n")
       `shouldBe` toJSON
