@@ -14,6 +14,7 @@ import Data.Foldable (toList)
 import Data.Maybe (isJust)
 import Data.Text (Text)
 import Data.Text qualified as Text
+import Query.SemanticToken (TokenKind (..))
 
 -- | The capabilities of the client that change the form of answers and diagnostics.
 data Client = Client
@@ -104,6 +105,19 @@ initializeResult =
             "signatureHelpProvider"
               .= object
                 ["triggerCharacters" .= ["(" :: Text], "retriggerCharacters" .= ["," :: Text]],
+            "semanticTokensProvider"
+              .= object
+                [ "legend"
+                    .= object ["tokenTypes" .= tokenTypes, "tokenModifiers" .= tokenModifiers],
+                  "full" .= True
+                ],
+            "inlayHintProvider" .= True,
+            "documentLinkProvider" .= object ["resolveProvider" .= False],
+            "codeLensProvider" .= object ["resolveProvider" .= False],
+            "foldingRangeProvider" .= True,
+            "selectionRangeProvider" .= True,
+            "documentOnTypeFormattingProvider"
+              .= object ["firstTriggerCharacter" .= ("\n" :: Text)],
             "documentFormattingProvider" .= True,
             "codeActionProvider" .= object ["codeActionKinds" .= ["quickfix" :: Text]]
           ]
@@ -111,3 +125,20 @@ initializeResult =
   where
     -- The protocol's number for Incremental: the client sends changed ranges, not whole texts.
     incremental = 2 :: Int
+
+-- | The names of the kinds of tokens, in the order of their numbers.
+tokenTypes :: [Text]
+tokenTypes = map name [minBound .. maxBound]
+  where
+    name kind = case kind of
+      KeywordToken -> "keyword"
+      NumberToken -> "number"
+      TextToken -> "string"
+      CommentToken -> "comment"
+      ValueToken -> "variable"
+      FunctionToken -> "function"
+      ContourToken -> "class"
+
+-- | The names of the properties of tokens, in the order of their bits.
+tokenModifiers :: [Text]
+tokenModifiers = ["definition", "defaultLibrary"]

@@ -6,14 +6,14 @@ module Lsp.Request
     method,
     Need (..),
     need,
+    workspaceMethod,
   )
 where
 
 import Base.Region (Region (..))
-import Base.Region qualified as Region
 import Data.Aeson (Value (Null), object, toJSON, withObject, (.:), (.=))
 import Data.Aeson.Key qualified as Key
-import Data.Maybe qualified as Maybe
+import Data.Aeson.Types (Parser)
 import Data.Text (Text)
 import Data.Text qualified as Text
 import Lsp.Capability (Client (..))
@@ -22,19 +22,16 @@ import Lsp.DescriptionKeyRequest qualified as DescriptionKeyRequest
 import Lsp.Diagnostic qualified as Diagnostic
 import Lsp.Document (Document (..))
 import Lsp.Document qualified as Document
-import Lsp.Location qualified as Location
+import Lsp.LayoutRequest qualified as LayoutRequest
 import Lsp.NameRequest qualified as NameRequest
+import Lsp.OutlineRequest qualified as OutlineRequest
 import Lsp.PanelRequest qualified as PanelRequest
 import Lsp.Position qualified as Position
 import Lsp.Subject (Method, Subject (..), source)
 import Lsp.Uri (Uri (..))
-import Query.Formatting qualified as Formatting
 import Query.Snapshot qualified as Snapshot
-import Query.Symbol (SymbolKind (..))
-import Query.Symbol qualified as Symbol
 import Report.Fix qualified as Fix
 import Report.Report (Report (fixes, place), ReportPlace (..))
-import Surface.Formatter qualified as Formatter
 
 -- | The function for a method name of the protocol, such as @textDocument/hover@. Nothing if the
 -- server does not support this method.
@@ -66,8 +63,19 @@ need name
   | otherwise = Evaluation
   where
     quick =
-      ["textDocument/hover", "textDocument/definition", "textDocument/documentSymbol", "partc/at"]
+      [ "textDocument/hover",
+        "textDocument/definition",
+        "textDocument/documentSymbol",
+        "textDocument/foldingRange",
+        "textDocument/onTypeFormatting",
+        "partc/at"
+      ]
     late = ["textDocument/codeAction", "textDocument/codeLens"]
+
+-- | The function for a method of the protocol that is about all open documents, such as
+-- @workspace/symbol@. Nothing if the server does not support this method.
+workspaceMethod :: Text -> Maybe ([Subject] -> Value -> Parser Value)
+workspaceMethod name = lookup name [("workspace/symbol", OutlineRequest.workspaceSymbols)]
 
 table :: [(Text, Method)]
 table =
@@ -79,35 +87,18 @@ table =
     ("textDocument/documentHighlight", NameRequest.highlights),
     ("textDocument/prepareRename", NameRequest.prepareRename),
     ("textDocument/rename", NameRequest.rename),
-    ("textDocument/documentSymbol", symbols),
-    ("textDocument/formatting", formatting),
+    ("textDocument/documentSymbol", OutlineRequest.symbols),
+    ("textDocument/semanticTokens/full", OutlineRequest.semanticTokens),
+    ("textDocument/inlayHint", OutlineRequest.inlayHints),
+    ("textDocument/documentLink", OutlineRequest.documentLinks),
+    ("textDocument/codeLens", OutlineRequest.codeLenses),
+    ("textDocument/foldingRange", OutlineRequest.foldingRanges),
+    ("textDocument/selectionRange", OutlineRequest.selectionRanges),
+    ("textDocument/formatting", LayoutRequest.formatting),
+    ("textDocument/onTypeFormatting", LayoutRequest.onType),
     ("textDocument/codeAction", codeActions),
     ("partc/at", PanelRequest.atPosition)
   ]
-
-symbols :: Method
-symbols client subject _ = pure (toJSON (map shown (Symbol.symbols (now subject))))
-  where
-    shown s = object (["name" .= Symbol.name s, "kind" .= number (Symbol.kind s)] <> placed s)
-    placed s
-      | hierarchical client =
-        [ "detail" .= Symbol.detail s,
-          "range" .= Position.range (source subject) (Symbol.whole s),
-          "selectionRange" .= Position.range (source subject) (Symbol.selection s)
-        ]
-      | otherwise =
-        ["location" .= Location.location (uri (document subject)) (source subject) (Symbol.whole s)]
-
-formatting :: Method
-formatting _ subject _ =
-  pure (toJSON (map edit (Maybe.maybeToList (Formatter.format text >>= Formatting.change text))))
-  where
-    text = Region.text (source subject)
-    edit change =
-      object
-        [ "range" .= Position.range (source subject) (Formatting.region change),
-          "newText" .= Formatting.newText change
-        ]
 
 -- | The fixes of all reports in a range, as actions of the kind @quickfix@.
 codeActions :: Method
@@ -140,12 +131,3 @@ codeActions client subject = withObject "parameters" $ \o -> do
         [ "range" .= Position.range (source subject) (Fix.replaced e),
           "newText" .= Fix.newText e
         ]
-
--- | The protocol's number of a kind of symbol.
-number :: SymbolKind -> Int
-number kind = case kind of
-  Part' -> 4 -- package
-  Value -> 13 -- variable
-  Function -> 12 -- function
-  Contour' -> 5 -- class
-  Machining -> 24 -- event

@@ -62,12 +62,15 @@ scope now before cursor = map scoped (nubOrdOn Cursor.name (own <> imported))
           meaning = maybe "" Mention.meaning found,
           value =
             find ((== n) . Mention.word) found >>= \m ->
-              lookup (Mention.place m) (Mention.values (Snapshot.facts now) <> earlierValues),
+              Map.lookup (Mention.place m) valuesAt,
           isContour = fmap Mention.typing found == Just (OfValue Contour)
         }
       where
         found = Map.lookup at present <|> Map.lookup n earlier
-    earlierValues = maybe [] (Mention.values . Snapshot.facts) before
+    valuesAt =
+      Map.fromListWith
+        (\_ first -> first)
+        (concatMap (Mention.values . Snapshot.facts) (now : maybe [] pure before))
 
 -- | The mentions of names in their own definitions, by the region of the name.
 definitionsOf :: Snapshot -> Map Region Mention

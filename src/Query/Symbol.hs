@@ -4,6 +4,8 @@ module Query.Symbol
   ( DocumentSymbol (..),
     SymbolKind (..),
     symbols,
+    flattened,
+    matching,
   )
 where
 
@@ -16,6 +18,7 @@ import Data.Maybe (mapMaybe)
 import Data.Text (Text)
 import Data.Text qualified as Text
 import Query.Snapshot (Snapshot (..))
+import Query.SyntaxWalk qualified as SyntaxWalk
 import Surface.Syntax (Program (..), Statement, Statement_ (..))
 
 -- | A symbol: the name, a short addition such as a parameter list, the kind, the region of the
@@ -25,7 +28,9 @@ data DocumentSymbol = DocumentSymbol
     detail :: Text,
     kind :: SymbolKind,
     whole :: Region,
-    selection :: Region
+    selection :: Region,
+    -- | the symbols of the statements in its block
+    children :: [DocumentSymbol]
   }
   deriving stock (Eq, Show)
 
@@ -38,6 +43,21 @@ data SymbolKind = Part' | Value | Function | Contour' | Machining
 -- have no symbol.
 symbols :: Snapshot -> [DocumentSymbol]
 symbols Snapshot {source, program} = mapMaybe (symbol source) (statements program)
+
+-- | A symbol and all symbols inside it.
+flattened :: DocumentSymbol -> [DocumentSymbol]
+flattened s = s : concatMap flattened (children s)
+
+-- | The symbols of a program whose name contains the letters of a query in their order. Upper and
+-- lower case count as the same letter. The empty query fits every symbol.
+matching :: Text -> Snapshot -> [DocumentSymbol]
+matching query now =
+  [s | s <- concatMap flattened (symbols now), Text.toLower query `isWithin` Text.toLower (name s)]
+  where
+    isWithin wanted text = case (Text.uncons wanted, Text.uncons text) of
+      (Nothing, _) -> True
+      (Just _, Nothing) -> False
+      (Just (c, more), Just (d, rest)) -> (if c == d then more else wanted) `isWithin` rest
 
 -- | The symbol of a statement; 'Nothing' if it has none. A definition is shown by its name. Any
 -- other statement is shown by the beginning of its text. For @mill@ and @turn@ this text ends with
@@ -75,7 +95,7 @@ symbol source (Located whole s) = case s of
   Auxiliary _ -> Nothing
   where
     definition kind (Located selection (Name name)) detail =
-      Just DocumentSymbol {name, detail, kind, whole, selection}
+      Just DocumentSymbol {name, detail, kind, whole, selection, children}
     machining lastRegion selection =
       Just
         DocumentSymbol
@@ -83,8 +103,10 @@ symbol source (Located whole s) = case s of
             detail = "",
             kind = Machining,
             whole,
-            selection
+            selection,
+            children
           }
+    children = mapMaybe (symbol source) (SyntaxWalk.blocks (Located whole s))
 
 -- | The names of a function's parameters in round brackets, as the addition to its symbol.
 parameterList :: NonEmpty (Located Name) -> Text

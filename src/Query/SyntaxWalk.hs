@@ -7,10 +7,13 @@ module Query.SyntaxWalk
     expressions,
     subexpressions,
     regionsAround,
+    typedExpressions,
   )
 where
 
 import Base.Region (Located (..), Region (..))
+import Checked.Type (Type)
+import Checked.Type qualified as Type
 import Data.List.NonEmpty qualified as NonEmpty
 import Surface.Syntax
 
@@ -169,3 +172,55 @@ regionsAround at s
       Turn _ _ ss -> [region x | x <- ss, contains (region x)]
       Drill _ _ ss -> [region x | x <- ss, contains (region x)]
       _ -> []
+
+-- | The expressions of a statement with the types that its grammar demands; 'Nothing' where it
+-- demands none. Definitions of values are left out.
+typedExpressions :: Statement -> [(Maybe Type, Expr)]
+typedExpressions s = case value s of
+  Feed e -> [(Just Type.feed, e)]
+  Clearance e -> [(Just Type.len, e)]
+  Tolerance _ -> lengths
+  Tool _ -> []
+  Change _ _ -> []
+  Spindle _ -> [(Just Type.spindleSpeed, e) | e <- expressions s]
+  Drill e f settings -> (Nothing, e) : (Just Type.len, f) : concatMap typedSetting settings
+  Mill e _ settings -> (Nothing, e) : concatMap typedSetting settings
+  Turn e _ settings -> (Nothing, e) : concatMap typedSetting settings
+  Pocket e f settings -> (Nothing, e) : (Just Type.len, f) : concatMap typedSetting settings
+  Contour {} -> concatMap typedItem (elementsOf s)
+  LetValue _ _ -> []
+  LetFunction {} -> []
+  Param _ _ -> []
+  _ -> [(Nothing, e) | e <- expressions s]
+  where
+    lengths = [(Just Type.len, e) | e <- expressions s]
+
+typedItem :: Item -> [(Maybe Type, Expr)]
+typedItem i = case value i of
+  Element _ e modifiers link ->
+    (Nothing, e) :
+    concat
+      [ case m of
+          ElementFeed f -> [(Just Type.feed, f)]
+          ElementAllowance a -> [(Just Type.len, a)]
+          Bevel a -> [(Just Type.angle, a)]
+          Slow -> []
+        | Located _ m <- modifiers
+      ]
+      <> case fmap value link of
+        Just (Fillet r) -> [(Just Type.len, r)]
+        Just (Chamfer r) -> [(Just Type.len, r)]
+        Just (Meet (Just p)) -> [(Nothing, p)]
+        _ -> []
+  _ -> [(Nothing, e) | e <- item i]
+
+typedSetting :: Setting -> [(Maybe Type, Expr)]
+typedSetting s = case value s of
+  Plunge e -> [(Just Type.feed, e)]
+  Approach _ -> plain
+  Retract _ -> plain
+  StartNear _ -> plain
+  Islands _ -> plain
+  _ -> [(Just Type.len, e) | e <- setting s]
+  where
+    plain = [(Nothing, e) | e <- setting s]
