@@ -135,13 +135,14 @@ ioProblem e
 data Reporter = Reporter {settings :: OutputSettings, collected :: IORef [Filed]}
 
 -- | Runs a command. In the SARIF format, writes the log of the collected reports after the
--- command.
-reporting :: OutputSettings -> (Reporter -> IO a) -> IO a
-reporting settings work = do
+-- command. @version@ is that of partc, which the log contains.
+reporting :: Text -> OutputSettings -> (Reporter -> IO a) -> IO a
+reporting version settings work = do
   collected <- newIORef []
   a <- work Reporter {settings, collected}
   case format settings of
-    SarifFormat -> readIORef collected >>= writeError . Sarif.log Explanation.everything . reverse
+    SarifFormat ->
+      readIORef collected >>= writeError . Sarif.log version Explanation.everything . reverse
     HumanFormat -> pure ()
     ShortFormat -> pure ()
     JsonFormat -> pure ()
