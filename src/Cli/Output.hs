@@ -22,6 +22,7 @@ import Base.Decimal qualified as Decimal
 import Base.LazyList (LazyList)
 import Base.LazyList qualified as LazyList
 import Base.Region (Source)
+import Cli.Terminal qualified as Terminal
 import Control.Concurrent (forkIO, killThread, threadDelay)
 import Control.Exception (bracket, onException, try)
 import Control.Monad (forever)
@@ -30,6 +31,7 @@ import Data.ByteString qualified as ByteString
 import Data.ByteString.Builder (Builder)
 import Data.ByteString.Builder qualified as Builder
 import Data.IORef (IORef, modifyIORef, newIORef, readIORef)
+import Data.Maybe (fromMaybe)
 import Data.Text (Text)
 import Data.Text qualified as Text
 import Data.Text.Encoding qualified as Encoding
@@ -156,8 +158,9 @@ showReports Reporter {settings, collected} path source reports = do
   case format settings of
     HumanFormat -> do
       colours <- useColour settings stderr
+      width <- fromMaybe Human.usualWidth <$> Terminal.columns stderr
       let (shown, more) = splitAt mostReports visible
-      mapM_ (\r -> writeError (Human.render colours path source r <> "\n")) shown
+      mapM_ (\r -> writeError (Human.renderWithin width colours path source r <> "\n")) shown
       writeError
         (if null more then "" else Decimal.whole (length more) <> " more reports are not shown.\n")
       writeError (Human.summary colours visible)
