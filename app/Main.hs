@@ -33,14 +33,16 @@ main = do
 work :: IO ExitCode
 work = do
   parsed <-
-    Opt.execParserPure (Opt.prefs Opt.showHelpOnEmpty) (Options.parser (showVersion version))
+    Opt.execParserPure (Opt.prefs Opt.showHelpOnEmpty) (Options.parser versionText)
       <$> getArgs
   name <- getProgName
   statusOf <$> case parsed of
     -- Optparse-applicative treats --help and --version as failures with the status of success.
     Opt.Failure request
       | (text, ExitSuccess) <- Opt.renderFailure request name -> Subcommand.showHelp text
-    _ -> Opt.handleParseResult parsed >>= Subcommand.run
+    _ -> Opt.handleParseResult parsed >>= Subcommand.run versionText
+  where
+    versionText = showVersion version
 
 -- | The exit status: 0 for success, 1 for errors, 3 for a tape that @verify@ has proven wrong.
 statusOf :: Exit -> ExitCode

@@ -183,7 +183,11 @@ right."
               electric-indent-chars (append "}])" electric-indent-chars)
               font-lock-defaults '(part-mode-font-lock-keywords)
               imenu-generic-expression part-mode-imenu-generic-expression
-              imenu-case-fold-search nil))
+              imenu-case-fold-search nil)
+  (when buffer-file-name
+    (setq-local compile-command
+                (concat "partc check --format short "
+                        (shell-quote-argument (file-name-nondirectory buffer-file-name))))))
 
 ;;;###autoload
 (add-to-list 'auto-mode-alist '("\\.part\\'" . part-mode))

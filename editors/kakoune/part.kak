@@ -22,6 +22,8 @@ hook -group part-highlight global WinSetOption filetype=part %{
 hook global BufSetOption filetype=part %{
     set-option buffer comment_line '--'
     set-option buffer indentwidth 2
+    # Kakoune's own tools may be missing.
+    try %{ set-option buffer makecmd 'partc check --format short' }
 }
 
 # kakoune-lsp 17 and later read this option. Without kakoune-lsp the option does not exist.

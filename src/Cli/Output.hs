@@ -22,6 +22,7 @@ import Base.Decimal qualified as Decimal
 import Base.LazyList (LazyList)
 import Base.LazyList qualified as LazyList
 import Base.Region (Source)
+import Cli.Terminal qualified as Terminal
 import Control.Concurrent (forkIO, killThread, threadDelay)
 import Control.Exception (bracket, onException, try)
 import Control.Monad (forever)
@@ -30,6 +31,7 @@ import Data.ByteString qualified as ByteString
 import Data.ByteString.Builder (Builder)
 import Data.ByteString.Builder qualified as Builder
 import Data.IORef (IORef, modifyIORef, newIORef, readIORef)
+import Data.Maybe (fromMaybe)
 import Data.Text (Text)
 import Data.Text qualified as Text
 import Data.Text.Encoding qualified as Encoding
@@ -135,13 +137,14 @@ ioProblem e
 data Reporter = Reporter {settings :: OutputSettings, collected :: IORef [Filed]}
 
 -- | Runs a command. In the SARIF format, writes the log of the collected reports after the
--- command.
-reporting :: OutputSettings -> (Reporter -> IO a) -> IO a
-reporting settings work = do
+-- command. @version@ is that of partc, which the log contains.
+reporting :: Text -> OutputSettings -> (Reporter -> IO a) -> IO a
+reporting version settings work = do
   collected <- newIORef []
   a <- work Reporter {settings, collected}
   case format settings of
-    SarifFormat -> readIORef collected >>= writeError . Sarif.log Explanation.everything . reverse
+    SarifFormat ->
+      readIORef collected >>= writeError . Sarif.log version Explanation.everything . reverse
     HumanFormat -> pure ()
     ShortFormat -> pure ()
     JsonFormat -> pure ()
@@ -155,8 +158,9 @@ showReports Reporter {settings, collected} path source reports = do
   case format settings of
     HumanFormat -> do
       colours <- useColour settings stderr
+      width <- fromMaybe Human.usualWidth <$> Terminal.columns stderr
       let (shown, more) = splitAt mostReports visible
-      mapM_ (\r -> writeError (Human.render colours path source r <> "\n")) shown
+      mapM_ (\r -> writeError (Human.renderWithin width colours path source r <> "\n")) shown
       writeError
         (if null more then "" else Decimal.whole (length more) <> " more reports are not shown.\n")
       writeError (Human.summary colours visible)

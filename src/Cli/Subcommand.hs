@@ -70,13 +70,15 @@ import Tape.Punch qualified as Tape
 import Tape.Tape (Tape (..))
 import Verify.PulseProof (PulseProof)
 
--- | Runs a subcommand.
-run :: Invocation -> IO Exit
-run (Invocation settings command) = Output.reporting settings (`perform` command)
+-- | Runs a subcommand. @version@ is that of partc.
+run :: String -> Invocation -> IO Exit
+run version (Invocation settings command) =
+  Output.reporting (Text.pack version) settings (`perform` command)
 
 -- | Prints the text of the help or of the version, which is given without its last line end.
 showHelp :: String -> IO Exit
-showHelp text = Output.reporting Output.defaultSettings (`printResult` (Text.pack text <> "\n"))
+showHelp text =
+  Output.reporting "" Output.defaultSettings (`printResult` (Text.pack text <> "\n"))
 
 perform :: Reporter -> Subcommand -> IO Exit
 perform reporter command = case command of

@@ -37,15 +37,16 @@ data Excerpt = Excerpt
   deriving stock (Eq, Show)
 
 -- | Makes one excerpt for each region, in the order of the list. A region of several lines is
--- marked only to the end of its first line.
-excerpts :: Source -> [Region] -> [Excerpt]
-excerpts source =
-  snd . mapAccumL (\before region -> let e = excerpt source before region in (Just e, e)) Nothing
+-- marked only to the end of its first line. @room@ is the count of terminal columns for a line.
+excerpts :: Int -> Source -> [Region] -> [Excerpt]
+excerpts room source = snd . mapAccumL next Nothing
+  where
+    next before region = let e = excerpt room source before region in (Just e, e)
 
 -- | Makes the excerpt of a region. @before@ is the previous excerpt; it is 'Nothing' for the first
--- region. A line of more than 'longest' characters is cut to a window around the region.
-excerpt :: Source -> Maybe Excerpt -> Region -> Excerpt
-excerpt source before region =
+-- region. A line that is wider than @room@ columns is cut to a window around the region.
+excerpt :: Int -> Source -> Maybe Excerpt -> Region -> Excerpt
+excerpt room source before region =
   Excerpt
     { place,
       shown = Text.concat (ellipsisBefore <> window <> ellipsisAfter),
@@ -59,26 +60,39 @@ excerpt source before region =
     content = Region.lineText source (start region)
     printed = expand 0 (Text.unpack content)
     length' = max 0 (min (end region - start region) (Text.length content - column + 1))
+    isCut = realLength (Text.concat printed) > room
+    -- The characters of a window from the character @front@ on. Two columns are for the ellipses.
+    windowFrom front
+      | isCut = takeColumns (max 1 (room - 2)) (drop front printed)
+      | otherwise = printed
     -- If the window of the previous excerpt contains the region, this excerpt has the same window,
     -- so that the line is printed only once.
     (skipped, isSame) = case before of
       Just Excerpt {place = Position {file, line}, skipped = front}
         | file == file',
           line == line',
-          front == ownStart || front < column && column - 1 + length' <= front + longest ->
+          front == ownStart
+            || front < column
+            && column - 1 + length' <= front + length (windowFrom front) ->
           (front, True)
       _ -> (ownStart, False)
-    ownStart = if Text.length content > longest then max 0 (column - 1 - longest `div` 2) else 0
-    window = take longest (drop skipped printed)
+    -- The region is in the middle of its window. A longer region begins with its window.
+    ownStart
+      | isCut = max 0 (column - 1 - max 0 (room - 2 - length') `div` 2)
+      | otherwise = 0
+    window = windowFrom skipped
     ellipsisBefore = ["…" | skipped > 0]
-    ellipsisAfter = ["…" | Text.length content - skipped > longest]
+    ellipsisAfter = ["…" | Text.length content - skipped > length window]
     (beforeMark, rest) = splitAt (column - 1 - skipped) window
     indent = realLength (Text.concat (ellipsisBefore <> beforeMark))
     width = max 1 (realLength (Text.concat (take length' rest)))
 
--- | The greatest count of characters that are shown of one line.
-longest :: Int
-longest = 120
+-- | The longest beginning of a list of printed characters that has at most @columns@ columns.
+takeColumns :: Int -> [Text] -> [Text]
+takeColumns columns characters = case characters of
+  c : rest
+    | realLength c <= columns -> c : takeColumns (columns - realLength c) rest
+  _ -> []
 
 -- | Replaces the control and format characters of a text by visible ones, but keeps line feeds.
 visible :: Text -> Text

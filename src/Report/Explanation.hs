@@ -13,6 +13,9 @@ module Report.Explanation
     list,
     render,
     markdown,
+    firstParagraph,
+    plain,
+    subjects,
   )
 where
 
@@ -169,3 +172,23 @@ layOut heading body shown e =
 -- | Replaces the backquotes of Markdown by the marks ‘ and ’ in turn.
 plain :: Text -> Text
 plain text = Text.concat (zipWith (<>) ("" : cycle ["‘", "’"]) (Text.splitOn "`" text))
+
+-- | The first paragraph of an explanation as one line of Markdown.
+firstParagraph :: Explanation -> Text
+firstParagraph e = Text.unwords (Text.lines (fst (Text.breakOn "\n\n" (prose e))))
+
+-- | The subjects of a code, which its first two digits name, as words for a search. The manual has
+-- the same groups of codes.
+subjects :: ReportCode -> [Text]
+subjects (ReportCode c) = case Text.take 2 (Text.drop 1 c) of
+  "01" -> ["form"]
+  "02" -> ["names", "types"]
+  "03" -> ["values", "geometry"]
+  "04" -> ["path"]
+  "05" -> ["machine"]
+  "06" -> ["tape"]
+  "07" -> ["proof"]
+  "08" -> ["files", "command-line"]
+  "09" -> ["input-sheets"]
+  "10" -> ["machine-descriptions"]
+  _ -> []

@@ -20,19 +20,20 @@ import Report.Fix qualified as Fix
 import Report.Report (Label (..), Report (..), ReportCode (..), ReportPlace (..))
 import Report.Report qualified as Report
 
--- | Renders a report as @file:line:column: error[E0123]: title@ with a line end. A report about a
--- tape has the row of the tape, from 1, in place of the line. @path@ is the file's name, which is
--- written if the report's place is not a region of the program.
+-- | Renders a report as GCC does, @file:line:column: error: title [E0123]@, with a line end. A
+-- report about a tape has the row of the tape, from 1, in place of the line. @path@ is the file's
+-- name, which is written if the report's place is not a region of the program. A report that
+-- concerns no file begins with @partc: error@.
 short :: Text -> Source -> Report -> Text
 short path source r =
   at
     <> ": "
     <> Report.severityWord (severity r)
-    <> "["
-    <> code
-    <> "]: "
+    <> ": "
     <> Excerpt.visible (title r)
-    <> "\n"
+    <> " ["
+    <> code
+    <> "]\n"
   where
     ReportCode code = Report.code r
     at = case place r of
@@ -40,7 +41,7 @@ short path source r =
         let Position {file, line, column} = Region.position source (start region)
          in file <> ":" <> Decimal.whole line <> ":" <> Decimal.whole column
       InTape row -> path <> ":" <> Decimal.whole row <> ":1"
-      InFile -> path <> ":1:1"
+      InFile -> if path == "" then "partc" else path <> ":1:1"
 
 -- | Renders a report as one JSON object with a line end. Lines count from 1, columns count
 -- characters from 1; the field @end@ is the position after the last character. @path@ is the

@@ -6,7 +6,7 @@ import Control.Monad (forM_)
 import Data.Aeson qualified as Aeson
 import Data.ByteString qualified as ByteString
 import Data.Either (isRight)
-import Data.List (isInfixOf, isPrefixOf)
+import Data.List (isInfixOf, isPrefixOf, isSuffixOf)
 import Data.Text qualified as Text
 import Data.Text.Encoding qualified as Encoding
 import Flange qualified
@@ -342,6 +342,10 @@ spec = do
         partc ["check", "--format", "short", "test/programs/surface/bad/five-mistakes.part"]
       length (lines err) `shouldBe` 5
       lines err `shouldSatisfy` all ("test/programs/surface/bad/five-mistakes.part:" `isPrefixOf`)
+      take 1 (lines err)
+        `shouldSatisfy` all ("part:3:1: error: ‘(’ is not closed [E0105]" `isSuffixOf`)
+      (_, _, err') <- partc ["explain", "--format", "short", "E9999"]
+      err' `shouldBe` "partc: error: no report has the code ‘E9999’ [E0809]\n"
     it "json writes one object on each line, and nothing else" $ do
       (_, _, err) <-
         partc ["--format", "json", "check", "test/programs/surface/bad/five-mistakes.part"]

@@ -19,7 +19,10 @@ spec = do
     err
       `shouldBe` "{\"$schema\":\"https://json.schemastore.org/sarif-2.1.0.json\",\
                  \\"version\":\"2.1.0\",\
-                 \\"runs\":[{\"tool\":{\"driver\":{\"name\":\"partc\",\"rules\":[]}},\
+                 \\"runs\":[{\"tool\":{\"driver\":{\"name\":\"partc\",\
+                 \\"semanticVersion\":\"0.1.0\",\"rules\":[]}},\
+                 \\"originalUriBaseIds\":{\"%SRCROOT%\":{\"description\":{\"text\":\
+                 \\"the folder in which partc was run\"}}},\
                  \\"columnKind\":\"unicodeCodePoints\",\"results\":[]}]}\n"
   it "contains the reports of all files, in the order of the command line" $ do
     (code, out, err) <-

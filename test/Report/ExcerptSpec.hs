@@ -15,10 +15,10 @@ spec =
   it
     "marks are under the regions that they mean (catches a mark under the window of another mark)"
     $ property $
-      forAll text $ \content ->
+      forAll ((,) <$> choose (60, 140) <*> text) $ \(room, content) ->
         forAll (sort <$> listOf1 (spot content)) $ \spots ->
           let source = Region.fromText "a.part" (Text.pack content)
-              found = Excerpt.excerpts source [Region from to | (from, to) <- spots]
+              found = Excerpt.excerpts room source [Region from to | (from, to) <- spots]
               -- For each mark, the line above it.
               printed = drop 1 (scanl (\line e -> if isSame e then line else shown e) "" found)
               under =
@@ -26,11 +26,12 @@ spec =
                   | (e, line) <- zip found printed
                 ]
            in counterexample
-                (show (spots, printed))
-                ( conjoin
-                    [ marked === takeWhile (/= '\n') (take (to - from) (drop from content))
-                      | (marked, (from, to)) <- zip under spots
-                    ]
+                (show (room, spots, printed))
+                ( conjoin (map (\line -> property (Text.length line <= room)) printed)
+                    .&&. conjoin
+                      [ marked === takeWhile (/= '\n') (take (to - from) (drop from content))
+                        | (marked, (from, to)) <- zip under spots
+                      ]
                 )
   where
     text = unlines <$> listOf1 (choose (1, 300) >>= \n -> vectorOf n (elements ['a' .. 'z']))
