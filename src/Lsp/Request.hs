@@ -129,5 +129,5 @@ codeActions client subject = withObject "parameters" $ \o -> do
     edit e =
       object
         [ "range" .= Position.range (source subject) (Fix.replaced e),
-          "newText" .= Fix.newText e
+          "newText" .= Fix.newText (source subject) e
         ]

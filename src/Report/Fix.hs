@@ -2,11 +2,16 @@
 module Report.Fix
   ( Fix (..),
     FixEdit (..),
+    FixText (..),
     exchange,
     insertion,
     removal,
     enclosure,
+    swap,
+    move,
+    joined,
     proposed,
+    newText,
     isWithin,
     applied,
   )
@@ -29,14 +34,18 @@ data Fix = Fix
   }
   deriving stock (Eq, Show)
 
--- | Region of the program whose text is replaced, and the new text. An empty region is a place for
--- new text.
-data FixEdit = FixEdit {replaced :: Region, newText :: Text}
+-- | Region of the program whose text is replaced, and the parts of the new text. An empty region is
+-- a place for new text.
+data FixEdit = FixEdit {replaced :: Region, parts :: [FixText]}
+  deriving stock (Eq, Show)
+
+-- | Part of a new text: words of the fix, or the text of a region of the program.
+data FixText = Written Text | Copied Region
   deriving stock (Eq, Show)
 
 -- | Fix that writes another text in a region.
 exchange :: Text -> Region -> Text -> Fix
-exchange title region new = Fix {title, isProposal = False, edits = [FixEdit region new]}
+exchange title region new = Fix {title, isProposal = False, edits = [FixEdit region [Written new]]}
 
 -- | Fix that writes a text at an offset.
 insertion :: Text -> Int -> Text -> Fix
@@ -44,7 +53,7 @@ insertion title offset = exchange title (Region offset offset)
 
 -- | Fix that removes the text of a region.
 removal :: Text -> Region -> Fix
-removal title region = Fix {title, isProposal = False, edits = [FixEdit region ""]}
+removal title region = Fix {title, isProposal = False, edits = [FixEdit region []]}
 
 -- | Fix that writes one text before and one after a region.
 enclosure :: Text -> Text -> Region -> Text -> Fix
@@ -53,20 +62,48 @@ enclosure title before region after =
     { title,
       isProposal = False,
       edits =
-        [ FixEdit (Region (start region) (start region)) before,
-          FixEdit (Region (end region) (end region)) after
+        [ FixEdit (Region (start region) (start region)) [Written before],
+          FixEdit (Region (end region) (end region)) [Written after]
         ]
     }
+
+-- | Fix that exchanges the texts of two regions, which do not overlap.
+swap :: Text -> Region -> Region -> Fix
+swap title a b =
+  Fix {title, isProposal = False, edits = [FixEdit a [Copied b], FixEdit b [Copied a]]}
+
+-- | Fix that moves the text of a region to an offset outside of it, and writes a line end after it.
+move :: Text -> Region -> Int -> Fix
+move title region offset =
+  Fix
+    { title,
+      isProposal = False,
+      edits =
+        [FixEdit (Region offset offset) [Copied region, Written "\n"], FixEdit region []]
+    }
+
+-- | Fix that makes the changes of several fixes, which do not overlap, at once.
+joined :: Text -> [Fix] -> Fix
+joined title fs = Fix {title, isProposal = any isProposal fs, edits = concatMap edits fs}
 
 -- | The fix as a proposal.
 proposed :: Fix -> Fix
 proposed f = f {isProposal = True}
 
--- | True if a fix changes only the text of the program itself, not of its imports.
-isWithin :: Source -> Fix -> Bool
-isWithin source fix = all isOwn (edits fix)
+-- | Text that an edit writes in place of the region.
+newText :: Source -> FixEdit -> Text
+newText source e = Text.concat (map part (parts e))
   where
-    isOwn e = end (replaced e) <= Text.length (Region.text source)
+    part p = case p of
+      Written text -> text
+      Copied (Region from to) -> Text.take (to - from) (Text.drop from (Region.text source))
+
+-- | True if a fix changes and copies only the text of the program itself, not of its imports.
+isWithin :: Source -> Fix -> Bool
+isWithin source fix = all isOwn (concatMap regions (edits fix))
+  where
+    isOwn region = end region <= Text.length (Region.text source)
+    regions e = replaced e : [region | Copied region <- parts e]
 
 -- | Text of the program after edits that do not overlap.
 applied :: Source -> [FixEdit] -> Text
@@ -77,5 +114,5 @@ applied source es = Text.concat (go 0 (sortOn replaced es))
       [] -> [Text.drop from whole]
       e : more ->
         Text.take (start (replaced e) - from) (Text.drop from whole) :
-        newText e :
+        newText source e :
         go (end (replaced e)) more

@@ -94,5 +94,5 @@ jsonFix source f = object ["title" .= Fix.title f, "edits" .= map edited (Fix.ed
       object
         [ "start" .= jsonPosition source (start (Fix.replaced e)),
           "end" .= jsonPosition source (end (Fix.replaced e)),
-          "text" .= Fix.newText e
+          "text" .= Fix.newText source e
         ]

@@ -184,7 +184,7 @@ fixed source f =
         <> pair "replacements" (list (pairs . replacement) (Fix.edits f))
     replacement e =
       pair "deletedRegion" (pairs (stretchOf source (Fix.replaced e)))
-        <> pair "insertedContent" (pairs ("text" .= Fix.newText e))
+        <> pair "insertedContent" (pairs ("text" .= Fix.newText source e))
 
 -- | Location of a region: its file, and its lines and columns. Columns count characters from 1; the
 -- end is the position after the last character (3.30.8).
