@@ -56,12 +56,13 @@ import Part.FromChecked qualified as Part
 import Part.Part (Part)
 import Project.Error qualified as Project
 import Project.Job (Job (..), Verification (..))
-import Project.LoadedProgram (LoadedProgram (surface))
+import Project.LoadedProgram (LoadedProgram (isSheet, surface))
 import Pulse.Controller (Console (..))
 import Pulse.Controller qualified as Controller
 import Pulse.FrameCompensation qualified as FrameCompensation
 import Pulse.ReaderDwell qualified as ReaderDwell
 import Report.Report (Report)
+import Report.Report qualified as Report
 import Surface.Error qualified as Surface
 import Surface.Parameter qualified as Surface
 import Tape.Punch qualified as Tape
@@ -94,7 +95,12 @@ evaluate values loaded = do
   written <- surface loaded
   assigned <- mapErrors id Surface.toReport (Surface.assign values written)
   checked <- mapErrors id Checked.toReport (Checked.check assigned)
-  (checked,) <$> mapErrors id Part.toReport (Part.evaluate checked)
+  (checked,) <$> mapErrors id partReport (Part.evaluate checked)
+  where
+    -- Only users of input sheets know the control stops of the Minsk-22 system.
+    partReport
+      | isSheet loaded = Report.withControlStop . Part.toReport
+      | otherwise = Part.toReport
 
 -- | The results that do not depend on a machine: the mentions of names in the program (for
 -- editors), the part, and the toolpath.

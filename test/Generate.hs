@@ -203,6 +203,7 @@ job c =
       Part.side = here (case side c of LeftOf -> Part.LeftSide; RightOf -> Part.RightSide),
       Part.radius = radius c,
       Part.gear = Nothing,
+      Part.places = Part.MillingPlaces (Region 0 0) Nothing (Region 0 0),
       Part.tolerance = Part.OnPath (Mm 0.02),
       Part.feed = here (Feed 60),
       Part.approach = [Stop (here (begin c)) Nothing Part.Rapid],
@@ -256,11 +257,13 @@ partOf at operation =
     }
   where
     cutter = case operation of
-      Part.Mill (Located _ m) -> Just (Part.Cutter Part.MillingCutter (Part.radius m))
-      Part.Pocket (Located _ p) -> Just (Part.Cutter Part.MillingCutter (Part.radius (Part.wall p)))
-      Part.Drill (Located _ d) -> Just (Part.Cutter Part.DrillingCutter (Part.drillRadius d))
+      Part.Mill (Located _ m) -> mill m
+      Part.Pocket (Located _ p) -> mill (Part.wall p)
+      Part.Drill (Located _ d) ->
+        Just (Part.Cutter Part.DrillingCutter (Part.drillRadius d) Nothing)
       Part.Travel _ -> Nothing
       Part.Command _ -> Nothing
+    mill m = Just (Part.Cutter Part.MillingCutter (Part.radius m) Nothing)
 
 -- | A toolpath of one rapid move, from (0, 0) to a point by its coordinates in mm.
 straightPath :: Double -> Double -> Toolpath

@@ -255,7 +255,7 @@ reportRepeated names = case names of
 contourDefinition ::
   TypingEnvironment ->
   Located Name ->
-  Surface.Closure ->
+  Located Surface.Closure ->
   [Surface.Item] ->
   Infer (Maybe (Deferred Checked.Statement_))
 contourDefinition env name closure items = do

@@ -72,7 +72,7 @@ setting env statement (Located at s) = do
     Surface.CutBy sense -> pure (\_ o -> o {sense = Just (Located at sense)})
     Surface.CompensationBy who -> pure (\_ o -> o {compensation = Just (Located at who)})
     Surface.StartNear e ->
-      (\e' sol o -> o {startNear = Just (e' sol)}) <$> expect env Type.aPoint e
+      (\e' sol o -> o {startNear = Just (Located at (e' sol))}) <$> expect env Type.aPoint e
     Surface.Plunge e -> (\e' sol o -> o {plunge = Just (e' sol)}) <$> expect env Type.feed e
     Surface.Peck e -> (\e' sol o -> o {peck = Just (e' sol)}) <$> len e
     Surface.Islands es ->

@@ -123,7 +123,7 @@ data Statement_
   | Table (Located Name) Columns
   | -- | the name, the curve, the ciphers, the side to which they shift the curve, and the joggles
     Piece (Located Name) Expr [Cipher] (Located Side) [Joggle]
-  | Contour (Located Name) Closure [Item]
+  | Contour (Located Name) (Located Closure) [Item]
   | Assert Assertion
   | Mill Expr (Located Side) Settings
   | -- | the contour, the stepover in mm, and the settings
@@ -235,7 +235,8 @@ data Settings = Settings
     corners :: Corners,
     sense :: Maybe (Located CutSense),
     compensation :: Maybe (Located Compensation),
-    startNear :: Maybe Expr,
+    -- | the region of the setting, and its point
+    startNear :: Maybe (Located Expr),
     -- | the feed of moves down into the material
     plunge :: Maybe Expr,
     -- | the largest depth of a peck, which is a step of drilling before the drill is retracted

@@ -13,6 +13,7 @@ import Base.Result qualified as Result
 import Cli.Error (Error (..), Warning (..))
 import Cli.Error qualified as Cli
 import Cli.FixCommand qualified as FixCommand
+import Cli.ForeignTape qualified as ForeignTape
 import Cli.Formatter qualified as Formatter
 import Cli.FrameTable qualified as FrameTable
 import Cli.InputFile
@@ -59,7 +60,7 @@ import Project.Job qualified as Job
 import Project.Target qualified as Target
 import Query.Snapshot qualified as Snapshot
 import Report.Explanation qualified as Explanation
-import Report.Report (Report)
+import Report.Report (Report (hints, message))
 import Sheet.Error qualified as Sheet
 import Sheet.FromPart qualified as Sheet
 import Sheet.FromText qualified as Sheet
@@ -171,14 +172,28 @@ verifyTape ::
   IO Exit
 verifyTape reporter given tapeName compiled rows pulses =
   case Tape.readExpected machine (Frame.start (program punched)) (framesOf punched) rows of
-    Left damage ->
-      Failed <$ Output.showReports reporter tapeName (source given) [Tape.toReport damage]
+    Left damage -> do
+      let damaged = Tape.toReport damage
+          others = ForeignTape.readers machine rows
+          hinted =
+            damaged
+              { message = message damaged <> ForeignTape.sentences compiled rows,
+                hints =
+                  [ "The tape is one of " <> Text.intercalate ", " others <> ": name it by -t."
+                    | not (null others)
+                  ]
+              }
+      Failed <$ Output.showReports reporter tapeName (source given) [hinted]
     Right read' -> do
       let result = Compile.proveTape part compiled read'
       Progress.during ("proving " <> tapeName) (evaluated result)
       exit <- maybe (pure Done) (printResult reporter . ProofTable.proof machine) (output result)
       exitOfPulses <- maybe (pure Done) printPulses pulses
-      let findings = errors result <> maybe [] errors pulses
+      let found = errors result <> maybe [] errors pulses
+          findings = case found of
+            first : more ->
+              first {message = message first <> ForeignTape.sentences compiled rows} : more
+            [] -> []
       _ <- Output.showReports reporter (name given) (source given) findings
       pure (if null findings then max exit exitOfPulses else Disproven)
   where

@@ -30,7 +30,7 @@ onFirstMachine target given = do
   tapes <- Compile.compile job {verification = Unverified} (loaded given)
   case tapes of
     first : _ -> pure first
-    [] -> Result.failed (Project.toReport (Project.NoMachine Target.builtInNames))
+    [] -> Result.failed (Project.toReport (Project.NoMachine Target.builtInNames Nothing))
   where
     job = Job.forTargets (maybeToList target) (values given) (loaded given)
 

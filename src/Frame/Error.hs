@@ -14,14 +14,17 @@ module Frame.Error
 where
 
 import Base.Decimal qualified as Decimal
-import Base.Quantity (Feed (..), Mm (..))
+import Base.Quantity (Feed (..), Mm (..), plus, times)
 import Base.Region (Region)
 import Data.Text (Text)
+import Data.Text qualified as Text
 import Geometry.Vec (Point)
 import Geometry.Vec qualified as Vec
 import Machine.Machine (Axis, Machine, MachineName (..))
 import Machine.Machine qualified as Machine
-import Report.Report (Report (..), ReportPlace (..), report)
+import Report.Fix (Fix)
+import Report.Fix qualified as Fix
+import Report.Report (Label (..), Report (..), ReportPlace (..), report)
 import Report.Report qualified as Report
 
 -- | Reason why no frames are made. Every error has the region of the part program that causes it.
@@ -37,8 +40,8 @@ data Error
   | -- | a point with a coordinate that exceeds the given limit in mm
     OutOfReach Region Point Mm
   | -- | a milling statement in which the sum of the tolerance and one pulse is not below the radius
-    -- of the cutter: the tolerance and the radius in mm
-    ToleranceTooLarge Region Mm Mm
+    -- of the cutter: the tolerance and the radius in mm, and the region of the tolerance
+    ToleranceTooLarge Region Mm Mm Region
   | -- | a number of a command that is too high for the machine, and the highest number that the
     -- machine has. This highest number is 0 if the machine has no such command
     NoSuchCommand Region CommandKind Int Int
@@ -62,8 +65,8 @@ data Warning
   = -- | the feed asked for, and the lowest and the highest feed that the frames get
     FeedDiffers Region Feed Feed Feed
   | -- | a start that is not in whole pulses: the start in the program, and the nearest position in
-    -- whole pulses, both in mm
-    StartRounded Region Point Point
+    -- whole pulses, both in mm, and the height of the start
+    StartRounded Region Point Point Mm
   | -- | a move in z on a machine whose historical source does not mention moves in z
     HeightUncertain Region
   | -- | a command for which the machine has no word, so that the operator has to carry it out
@@ -92,7 +95,12 @@ toReport machine err = case err of
         (InSource region)
         (machineName machine <> " has no feed of " <> feed asked)
     )
-      { message = ["Its feeds go from " <> feed lowest <> " to " <> feed highest <> "."]
+      { message = ["Its feeds go from " <> feed lowest <> " to " <> feed highest <> "."],
+        fixes =
+          [ if asked > highest
+              then feedFix "Write its largest feed" region (roundedTo floor highest)
+              else feedFix "Write its least feed" region (roundedTo ceiling lowest)
+          ]
       }
   FrequencyOutOfRange region asked needed (low, lowFeed) (high, highFeed) ->
     ( report
@@ -110,8 +118,17 @@ toReport machine err = case err of
               <> Decimal.short 2 high
               <> ".",
             "Along an axis that is " <> feed lowFeed <> " to " <> feed highFeed <> "."
+          ],
+        -- The frequency is in proportion to the feed.
+        fixes =
+          [ if needed > high
+              then feedFix "Write the largest feed for this move" region (limited floor high)
+              else feedFix "Write the least feed for this move" region (limited ceiling low)
           ]
       }
+    where
+      limited :: (Double -> Int) -> Double -> Text
+      limited towards limit = let Feed f = asked in roundedTo towards (Feed (f * limit / needed))
   OutOfReach region p limit ->
     ( report
         Report.Error
@@ -119,9 +136,10 @@ toReport machine err = case err of
         (InSource region)
         ("the cutter would go to " <> Vec.toText 4 p <> ", further than any machine reaches")
     )
-      { message = ["Coordinates may be up to " <> Decimal.mm limit <> "."]
+      { message = ["Coordinates may be up to " <> Decimal.mm limit <> "."],
+        hints = ["Check the units and the decimal points of the numbers."]
       }
-  ToleranceTooLarge region tolerance radius ->
+  ToleranceTooLarge region tolerance radius written ->
     ( report
         Report.Error
         "E0504"
@@ -138,7 +156,14 @@ toReport machine err = case err of
               <> ") have to stay below the cutter's radius: a cutter that may be off by its own \
                  \size proves nothing."
           ],
-        hints = ["Give a smaller tolerance."]
+        others = [Label written "the tolerance is written here"],
+        fixes =
+          [ Fix.proposed
+              (Fix.exchange ("Write a smaller tolerance: " <> text <> ".") written text)
+            | usual < plus radius (times (-1) (Machine.planeResolution machine)),
+              let text = Decimal.mm usual
+          ],
+        hints = ["Take a larger cutter."]
       }
   NoSuchCommand region kind n highest ->
     ( report
@@ -151,7 +176,14 @@ toReport machine err = case err of
           [ if highest == 0
               then "It has none at all."
               else "Its tape holds the numbers up to " <> Decimal.whole highest <> "."
-          ]
+          ],
+        fixes =
+          [ Fix.proposed (Fix.exchange ("Write its highest one: " <> text <> ".") region text)
+            | kind == AuxiliaryCommand,
+              highest > 0,
+              let text = "aux " <> Decimal.whole highest
+          ],
+        hints = ["Leave it out, or compile for another machine." | highest == 0]
       }
   TooManyContours region limit ->
     ( report
@@ -163,9 +195,11 @@ toReport machine err = case err of
       { message =
           [ "A program for "
               <> machineName machine
-              <> " may have so many contours that are machined. The Minsk-22 system stopped here \
-                 \with 10746."
+              <> " may machine no more than "
+              <> Decimal.whole limit
+              <> " contours."
           ],
+        controlStop = Just "10746",
         hints = ["Make two programs of it."]
       }
   NoSuchAxis region axis ->
@@ -175,7 +209,8 @@ toReport machine err = case err of
         (InSource region)
         (machineName machine <> " has no axis " <> axisName axis)
     )
-      { message = ["The cutter would move in " <> axisName axis <> " here."]
+      { message = ["The cutter would move in " <> axisName axis <> " here."],
+        hints = ["Leave the depth or the third coordinate out, or compile for another machine."]
       }
   PositionOutOfField region axis position limit ->
     ( report
@@ -189,7 +224,8 @@ toReport machine err = case err of
             <> machineName machine
         )
     )
-      { message = ["It holds positions up to " <> Decimal.mm limit <> "."]
+      { message = ["It holds positions up to " <> Decimal.mm limit <> "."],
+        hints = ["Check the units and the decimal points of the numbers."]
       }
   NoCompensation region ->
     ( report
@@ -199,7 +235,7 @@ toReport machine err = case err of
         (machineName machine <> " has no cutter compensation")
     )
       { message = ["Its tape has no word for it."],
-        hints = ["Leave this out: the compiler works out the path of the cutter's centre."]
+        fixes = [compensationFix region]
       }
   DiameterOutOfRange region diameter ->
     ( report
@@ -213,7 +249,7 @@ toReport machine err = case err of
               <> Decimal.mm (Machine.planeResolution machine)
               <> ") only."
           ],
-        hints = ["Leave this out: the compiler works out the path of the cutter's centre."]
+        fixes = [compensationFix region]
       }
   TooManyFrames region limit ->
     ( report
@@ -244,9 +280,14 @@ warningReport machine warning = case warning of
                )
         )
     )
-      { message = ["Asked is " <> feed asked <> "; " <> reason <> "."]
+      { message = ["The program asks for " <> feed asked <> "; " <> reason <> "."],
+        fixes =
+          [ feedFix "Write the feed that the machine runs" region (exactFeed lowest)
+            | feed lowest == feed highest,
+              Machine.feedMeasure (Machine.feeds machine) == Machine.AlongPath
+          ]
       }
-  StartRounded region asked given ->
+  StartRounded region asked given z ->
     ( report
         Report.Warning
         "W0502"
@@ -259,6 +300,10 @@ warningReport machine warning = case warning of
               <> " (a pulse is "
               <> Decimal.mm (Machine.planeResolution machine)
               <> ")."
+          ],
+        fixes =
+          [ Fix.proposed (Fix.exchange ("Write this start: " <> text <> ".") region text)
+            | let text = "from " <> startText given z
           ]
       }
   HeightUncertain region ->
@@ -302,17 +347,22 @@ warningReport machine warning = case warning of
         (InSource region)
         (machineName machine <> " turns the spindle at " <> turns given)
     )
-      { message = ["Asked is " <> turns asked <> "; the machine can be told none nearer to it."]
+      { message =
+          [ "The program asks for "
+              <> turns asked
+              <> "; the machine can be told no speed nearer to it."
+          ],
+        hints = ["Write " <> Decimal.short 1 given <> " rpm, if this speed is meant."]
       }
   SpindleSpeedMissing region ->
     ( report
         Report.Warning
         "W0506"
         (InSource region)
-        (machineName machine <> " is told of the spindle by its speed, and none is given")
+        (machineName machine <> " starts its spindle by a speed, and this statement gives none")
     )
-      { message = ["The tape says nothing of the spindle here."],
-        hints = ["Give the turns a minute."]
+      { message = ["The tape has no command for the spindle here."],
+        hints = ["Write the speed, for example: spindle cw 800 rpm"]
       }
   ReaderTooSlow region n count ->
     ( report
@@ -355,6 +405,43 @@ warningReport machine warning = case warning of
         (Machine.AlongPath, Machine.Nearest) -> "the machine has no feed nearer to it"
         (Machine.LeadingAxis, _) -> "the machine's feeds are steps along the axis that leads"
     turns n = Decimal.short 1 n <> " turns a minute"
+
+-- | Fix that writes another feed.
+feedFix :: Text -> Region -> Text -> Fix
+feedFix what region text = Fix.proposed (Fix.exchange (what <> ": " <> text <> ".") region text)
+
+-- | Text of a feed, rounded to 0.01 mm/min in the direction @towards@.
+roundedTo :: (Double -> Int) -> Feed -> Text
+roundedTo towards (Feed f) = Decimal.short 2 (fromIntegral n / 100) <> " mm/min"
+  where
+    nearest = round (f * 100) :: Int
+    n = if abs (f * 100 - fromIntegral nearest) < 1e-6 then nearest else towards (f * 100)
+
+-- | Text of a feed with all its decimals.
+exactFeed :: Feed -> Text
+exactFeed (Feed f) = Decimal.exact f <> " mm/min"
+
+-- | Tolerance that is usual for milling.
+usual :: Mm
+usual = Mm 0.02
+
+-- | Text of a start: its coordinates, and its height unless that is 0.
+startText :: Point -> Mm -> Text
+startText p (Mm z) =
+  "("
+    <> Text.intercalate ", " (map Decimal.exact ([Vec.x p, Vec.y p] <> [z | z /= 0]))
+    <> ")"
+
+-- | Fix that leaves the compensation to the compiler. @asked@ is the setting that asks the machine
+-- for it.
+compensationFix :: Region -> Fix
+compensationFix asked =
+  Fix.proposed
+    ( Fix.exchange
+        "Let the compiler compute the path of the cutter's centre: compensation compiler."
+        asked
+        "compensation compiler"
+    )
 
 -- | Noun before the number of a command in a report, as in "the machine has no tool 7".
 numbered :: CommandKind -> Text

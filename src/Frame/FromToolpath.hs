@@ -58,7 +58,6 @@ import Frame.Rounding (PathPosition)
 import Frame.Rounding qualified as Rounding
 import Geometry.Segment (Segment (Straight))
 import Geometry.Segment qualified as Segment
-import Geometry.Vec (Point)
 import Geometry.Vec qualified as Vec
 import Machine.Machine (Arcs (..), FeedCode (..), Machine)
 import Machine.Machine qualified as Machine
@@ -101,7 +100,7 @@ quantise
       tooCoarse = mapMaybe (toleranceError machine) (Toolpath.blocks path)
       tooMany = contourErrors machine path
       isUnbounded = not (null (InstructionCheck.boundErrors (instructionFindings made)))
-      startWarnings = startWarning machine startRegion startPoint begin
+      startWarnings = startWarning machine startRegion (SpacePoint startPoint startHeight) begin
       warnings = nubOrd (startWarnings <> warningsOf made)
 
 -- | All errors, each once. @tooCoarse@ are the errors about too large tolerances, @tooMany@ is the
@@ -135,11 +134,11 @@ warningsOf made =
 commandWarnings :: Making -> [Warning]
 commandWarnings made = concatMap Command.warnings (reverse (translations made))
 
--- | Warning about the start point @asked@ in mm if it lies between two pulses. @begin@ is its
--- rounded position; @region@ is the part of the program that gives the point.
-startWarning :: Machine -> Region -> Point -> Pulses3 -> [Warning]
-startWarning machine region asked begin =
-  [StartRounded region asked given | not (Vec.isNear given asked)]
+-- | Warning about the start, in mm, if it lies between two pulses. @begin@ is its rounded position;
+-- @region@ is the part of the program that gives the point.
+startWarning :: Machine -> Region -> SpacePoint -> Pulses3 -> [Warning]
+startWarning machine region (SpacePoint asked z) begin =
+  [StartRounded region asked given z | not (Vec.isNear given asked)]
   where
     given = Frame.position machine begin
 
@@ -159,7 +158,13 @@ toleranceError machine block = case block of
     tooLarge job
       | Toolpath.touchedRadius job > Mm 0
           && plus tolerance (Machine.planeResolution machine) >= Part.radius job =
-        Just (ToleranceTooLarge (region (Part.side job)) tolerance (Part.radius job))
+        Just
+          ( ToleranceTooLarge
+              (region (Part.side job))
+              tolerance
+              (Part.radius job)
+              (Part.accuracy (Part.places job))
+          )
       | otherwise = Nothing
       where
         tolerance = uncurry max (Part.deviationLimits (Part.tolerance job))

@@ -5,7 +5,6 @@ module Machine.Error
   ( Error (..),
     AxisKind (..),
     HoleFault (..),
-    DecodingFault (..),
     ServiceFault (..),
     FrameFault (..),
     TableFault (..),
@@ -23,6 +22,10 @@ import Data.Text (Text)
 import Data.Text qualified as Text
 import Machine.ControllerError (ControllerFault)
 import Machine.ControllerError qualified as ControllerError
+import Machine.DecodingError (DecodingFault (..))
+import Machine.DecodingError qualified as DecodingError
+import Report.Fix (Fix)
+import Report.Fix qualified as Fix
 import Report.Report
   ( Label (..),
     Report (..),
@@ -53,8 +56,9 @@ data Error
     Malformed Region Text [Text]
   | -- | pulse with the unit of the other kind of axes: the name of the axis
     WrongUnit Region AxisKind Text
-  | -- | value without a mark of provenance, and the count of further such values in the section
-    Unmarked Region Int
+  | -- | value without a mark of provenance, the count of further such values in the section, and
+    -- the offsets at which all these values end
+    Unmarked Region Int [Int]
   | -- | number out of range: the name of the number, the lowest and the highest value
     OutOfRange Region Text Text Text
   | -- | mistake in the holes of a row
@@ -96,34 +100,6 @@ data HoleFault
     SharedTrack
   | -- | fewer than the seven tracks that ASCII needs
     TooFewTracks
-  deriving stock (Eq, Ord, Show)
-
--- | Reason why frames cannot be decoded uniquely.
-data DecodingFault
-  = -- | optional word without an address
-    NoAddress
-  | -- | address that an earlier word has too: the address, and the region of the earlier word
-    SameAddress Text Region
-  | -- | address or separator that begins like a number
-    LikeNumber Text
-  | -- | item whose symbols begin with those of another item that may come at the same position. The
-    -- arguments are the shorter symbols, the longer ones, and the region of the item with the
-    -- shorter ones
-    Prefix Text Text Region
-  | -- | number without fixed length before an item that may begin with a digit
-    NumberRunsOn Region
-  | -- | number without fixed length before closing symbols that begin with a digit
-    NumberRunsIntoClosing
-  | -- | number without fixed length before skipped blank rows that read as this digit
-    NumberRunsIntoBlank Char
-  | -- | no item that every frame contains
-    NoFixedItem
-  | -- | blank rows are skipped, but a frame may begin with one
-    BlankStart
-  | -- | second check digit, and the region of the first one
-    TwoChecks Region
-  | -- | closing symbols that begin like a frame
-    ClosingLikeFrame
   deriving stock (Eq, Ord, Show)
 
 -- | Mistake in the holes beside the digits of a word.
@@ -228,12 +204,10 @@ toReport err = case err of
   TooDeep region limit ->
     at region "E1001" ("blocks are nested more than " <> Decimal.whole limit <> " deep")
   UnknownKey region key section known ->
-    (at region "E1002" (quote key <> " says nothing about " <> section))
-      { message = ["Here may stand: " <> Text.intercalate ", " known <> "."],
-        hints =
-          [ "Did you mean " <> quote w <> "?"
-            | w <- take 1 (Name.lookAlike key known <> Name.nearest key known)
-          ]
+    (at region "E1002" (quote key <> " is no key of " <> section))
+      { message = ["The keys of " <> section <> " are " <> Text.intercalate ", " known <> "."],
+        fixes = nearestFixes region key known,
+        hints = ["Write one of them, or leave the line out."]
       }
   Twice region what first ->
     (at region "E1003" (what <> " is given twice"))
@@ -249,7 +223,7 @@ toReport err = case err of
       { hints = ["Write: " <> Text.intercalate ", or: " forms]
       }
   WrongUnit region kind axis -> unitReport region kind axis
-  Unmarked region more ->
+  Unmarked region more ends ->
     ( at
         region
         "E1006"
@@ -263,14 +237,22 @@ toReport err = case err of
             \because no document says it)."
           ],
         hints =
-          [ "Write the mark behind it, and where it is printed: sourced \"manual, page 12\"",
+          [ "Write the mark after it, and where it is printed: sourced \"manual, page 12\"",
             "A mark before a block, or on the line of the machine, holds for all within that have \
             \none."
+          ],
+        fixes =
+          [ Fix.proposed . Fix.joined "Mark what no document says: reconstructed." $
+              [Fix.insertion "" at' " reconstructed" | at' <- ends]
           ]
       }
   OutOfRange region what low high ->
     (at region "E1007" (what <> " cannot be this number"))
-      { hints = ["It lies between " <> low <> " and " <> high <> "."]
+      { message = ["It lies between " <> low <> " and " <> high <> "."],
+        fixes =
+          [ Fix.proposed (Fix.exchange ("Write the " <> which <> ": " <> limit <> ".") region limit)
+            | (which, limit) <- [("least", low), ("largest", high)]
+          ]
       }
   BadHoles region fault -> holeReport region fault
   NotInCode region what chars ->
@@ -281,7 +263,7 @@ toReport err = case err of
               <> "\" = 00101"
           ]
       }
-  NotDecodable region fault -> decodingReport region fault
+  NotDecodable region fault -> DecodingError.toReport region fault
   BadService region fault -> serviceReport region fault
   BadFrame region fault -> frameReport region fault
   BadTable region fault -> tableReport region fault
@@ -358,78 +340,6 @@ holeReport region fault = case fault of
       { hints =
           ["Give the row of each symbol: X = 0101"]
       }
-
-decodingReport :: Region -> DecodingFault -> Report
-decodingReport region fault = case fault of
-  NoAddress ->
-    (because "A word that need not stand in a frame is known by its address only.")
-      { hints =
-          [ "Give the word an address: word \"X\" along x",
-            "Or let it stand in every frame: leave out ‘when’."
-          ]
-      }
-  SameAddress address first ->
-    (because ("Two words have the address " <> quote address <> "."))
-      { others = [Label first "the other word"],
-        hints = ["Give each word an address of its own."]
-      }
-  LikeNumber text ->
-    (because (quote text <> " begins like a number."))
-      { hints = ["Begin with what is neither a digit nor a sign nor a point."]
-      }
-  Prefix short long other ->
-    (because (quote long <> " begins with " <> quote short <> ", which may stand in its place."))
-      { others = [Label other (quote short)],
-        hints =
-          [ "Change one of the two, or let the longer one stand first if its rest cannot be a \
-            \number."
-          ]
-      }
-  NumberRunsOn next ->
-    (because "The number has any length, and what follows it may begin with a digit.")
-      { others = [Label next "follows it"],
-        hints =
-          ["Give the number a fixed length: digits " <> "4", "Or give what follows an address."]
-      }
-  NumberRunsIntoClosing ->
-    (because "The number has any length, and the symbols behind the last frame begin with a digit.")
-      { hints =
-          [ "Give the number a fixed length: digits 4",
-            "Or end every frame with a symbol: symbols \"\\n\""
-          ]
-      }
-  NumberRunsIntoBlank digit ->
-    ( because
-        ( "The number has any length, and a blank row, which is skipped behind the frame, reads as "
-            <> quote (Text.singleton digit)
-            <> "."
-        )
-    )
-      { hints = ["Give the number a fixed length: digits 4", "Or let the blank rows be ‘counted’."]
-      }
-  NoFixedItem ->
-    ( because
-        "No word and no symbol stands in every frame, so nothing tells one frame from the next."
-    )
-      { hints = ["End every frame with a symbol: symbols \"\\n\""]
-      }
-  BlankStart ->
-    (because "Blank rows are skipped, but a frame may begin with one.")
-      { hints =
-          ["Begin the frame with a symbol that has holes, or let the blank rows be ‘counted’."]
-      }
-  TwoChecks first ->
-    (because "With two check digits one of them can be any digit.")
-      { others = [Label first "the other one"],
-        hints = ["Keep one."]
-      }
-  ClosingLikeFrame ->
-    (because "The symbols behind the last frame begin like a frame.")
-      { hints =
-          ["Let them begin with a symbol that begins no frame."]
-      }
-  where
-    because why = (at region "E1010" "such frames cannot be read back") {message = [why]}
 
 serviceReport :: Region -> ServiceFault -> Report
 serviceReport region fault = case fault of
@@ -567,11 +477,8 @@ commandReport :: Region -> CommandFault -> Report
 commandReport region fault = case fault of
   UnknownCommandName name known ->
     (wrong ("the frame has no place for " <> quote name))
-      { hints =
-          [ "Did you mean " <> quote w <> "?"
-            | w <- take 1 (Name.lookAlike name known <> Name.nearest name known)
-          ]
-            <> ["Give it a word in the frame: word \"" <> name <> "\" command " <> name]
+      { fixes = nearestFixes region name known,
+        hints = ["Give it a word in the frame: word \"" <> name <> "\" command " <> name]
       }
   NumberTooLarge n largest ->
     (wrong ("the number " <> Decimal.whole n <> " does not fit"))
@@ -595,6 +502,13 @@ commandReport region fault = case fault of
       }
   where
     wrong = at region "E1014"
+
+-- | Fix that writes the known word that is most like a word.
+nearestFixes :: Region -> Text -> [Text] -> [Fix]
+nearestFixes region word known =
+  [ Fix.exchange ("Write " <> w <> ".") region w
+    | w <- take 1 (Name.lookAlike word known <> Name.nearest word known)
+  ]
 
 at :: Region -> ReportCode -> Text -> Report
 at region code = report Error code (InSource region)

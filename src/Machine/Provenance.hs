@@ -8,7 +8,7 @@ module Machine.Provenance
   )
 where
 
-import Base.Region (Located (..))
+import Base.Region (Located (..), Region (end))
 import Control.Applicative ((<|>))
 import Data.Maybe (isJust, isNothing)
 import Data.Text (Text)
@@ -43,11 +43,14 @@ unmarked :: Maybe (Located Mark) -> [Statement] -> [Error]
 unmarked ofMachine sections = case ofMachine of
   Just _ -> []
   Nothing ->
-    [Unmarked first (length more) | s <- sections, first : more <- [unmarkedLines s]]
+    [ Unmarked (extent first) (length more) (map (end . extent) found)
+      | s <- sections,
+        found@(first : more) <- [unmarkedLines s]
+    ]
   where
     unmarkedLines s
       | isJust (mark s) || broken s = []
-      | otherwise = [extent s | isDescriptive s] <> concatMap unmarkedLines (inner s)
+      | otherwise = [s | isDescriptive s] <> concatMap unmarkedLines (inner s)
 
 -- | True if the line itself describes a value. Every line without a block does. A line with a
 -- block does so in three cases only:

@@ -31,7 +31,8 @@ import Data.Maybe (catMaybes, mapMaybe)
 import Data.Text (Text)
 import Data.Text qualified as Text
 import Machine.CodeFromText qualified as CodeFromText
-import Machine.Error (DecodingFault (..), Error (..))
+import Machine.DecodingError (DecodingFault (..))
+import Machine.Error (Error (..))
 import Machine.Machine
 
 -- | Item of a frame with its region.

@@ -107,28 +107,29 @@ lineFunction region builtin arguments = case (builtin, arguments) of
 -- result.
 circleFunction :: Region -> Builtin -> [Argument] -> Maybe (Eval Value)
 circleFunction region builtin arguments = case (builtin, arguments) of
-  (MakeCircle, [Plain (Spatial c), Plain (Quantity r)]) -> Just (circleOf (fromOrigin c) r)
+  (MakeCircle, [Plain (Spatial c), Plain (Quantity r)]) -> Just (circleOf (Just 1) (fromOrigin c) r)
   (MakeCircle, [Plain (Spatial c), Plain (LineValue l)]) ->
-    let Mm d = distanceFrom l (fromOrigin c) in Just (circleOf (fromOrigin c) d)
+    let Mm d = distanceFrom l (fromOrigin c) in Just (circleOf Nothing (fromOrigin c) d)
   (MakeCircle, [Plain (Spatial p), Plain (Spatial q), Plain (Spatial s)]) ->
     Just
       ( maybe
           (fault (OnOneLine region))
-          (\(Circle c (Mm r)) -> circleOf c r)
+          (\(Circle c (Mm r)) -> circleOf Nothing c r)
           (TangentCircle.through (fromOrigin p) (fromOrigin q) (fromOrigin s))
       )
   (MakeCircle, Plain (Quantity r) : a : b : choice)
-    | r <= 0 -> Just (Evaluation.mistake (RadiusNotPositive region (Mm r)))
+    | r <= 0 -> Just (Evaluation.mistake (RadiusNotPositive region (Mm r) (Just 0)))
     | otherwise -> Just $ do
       within region r
       found <- picked region (touchingCircles (Mm r) a b) choice
-      circleOf (centre found) r
+      circleOf Nothing (centre found) r
   (Concentric, [Plain (CircleValue (Circle c (Mm r))), Plain (Quantity d)]) ->
-    Just (circleOf c (r + d))
+    Just (circleOf Nothing c (r + d))
   _ -> Nothing
   where
-    circleOf c r
-      | r <= 0 = Evaluation.mistake (RadiusNotPositive region (Mm r))
+    -- @index@ is the index of the argument that gives the radius.
+    circleOf index c r
+      | r <= 0 = Evaluation.mistake (RadiusNotPositive region (Mm r) index)
       | otherwise = CircleValue (Circle c (Mm r)) <$ within region r
 
 -- | All circles of radius @r@ that touch both figures @a@ and @b@. One of them is chosen by the
@@ -222,12 +223,14 @@ tangency region a b = case (a, b) of
   (OnCircle _ c, OnCircle _ d) -> case Intersection.circles c d of
     Touching p -> spatial region (offset p)
     Same -> fault (SameThing region)
-    _ -> fault (NotTouching region (circleGap c d))
+    other -> fault (NotTouching region (circleGap c d) (Intersection.points other))
   _ -> bug "a tangency of other things than lines and circles"
   where
     lineAt l c@(Circle o (Mm r)) = case Intersection.lineCircle l c of
       Touching p -> spatial region (offset p)
-      _ -> let Mm h = distanceFrom l o in fault (NotTouching region (Mm (abs (h - r))))
+      other ->
+        let Mm h = distanceFrom l o
+         in fault (NotTouching region (Mm (abs (h - r))) (Intersection.points other))
     circleGap (Circle c (Mm r)) (Circle d (Mm s)) =
       let Mm gap = Vec.distance c d in Mm (min (abs (gap - r - s)) (abs (gap - abs (r - s))))
 
@@ -241,7 +244,8 @@ tangentLine region sought candidate a b =
   case TangentCircle.tangentLines (sensesOf a, circleAt a) (sensesOf b, circleAt b) of
     [one] -> pure one
     [] -> fault (NoAnswer region (NoTangent sought (obstacle (circleAt a) (circleAt b))))
-    several -> fault (Several region sought (map candidate several))
+    several ->
+      fault (SeveralTangents region sought [(candidate l, map (sideOf l) [a, b]) | l <- several])
   where
     circleAt argument = case argument of
       Plain (Spatial p) -> Circle (fromOrigin p) (Mm 0)
@@ -253,6 +257,11 @@ tangentLine region sought candidate a b =
       Choosing ToLeft _ -> [CounterClockwise]
       Choosing ToRight _ -> [Clockwise]
       _ -> [CounterClockwise, Clockwise]
+    -- The word before a circle that chooses the line @l@; 'Nothing' if the program writes it
+    -- already.
+    sideOf l argument = case argument of
+      Plain (CircleValue (Circle c _)) -> Just (Carrier.signedDistance l c > Mm 0)
+      _ -> Nothing
 
 -- | The reason why no line is tangent to both circles. A circle of radius 0 represents a point.
 obstacle :: Circle -> Circle -> TangentObstacle

@@ -13,13 +13,17 @@ module Part.ConstructionError
 where
 
 import Base.Decimal qualified as Decimal
-import Base.Quantity (Mm)
-import Base.Region (Region)
+import Base.Quantity (Mm (..))
+import Base.Region (Region (..))
 import Data.Text (Text)
+import Data.Text qualified as Text
+import Geometry.Carrier qualified as Carrier
 import Geometry.ElementCarrier (ElementCarrier)
 import Geometry.Vec (Point)
 import Geometry.Vec qualified as Vec
-import Part.ErrorText (Candidate, at, describe, listed)
+import Part.ErrorText (Candidate (..), at, describe, described, listed)
+import Report.Fix (Fix)
+import Report.Fix qualified as Fix
 import Report.Report (Report (..))
 
 -- | A fault of a construction. The first field of every constructor is the region of the function
@@ -32,6 +36,10 @@ data ConstructionFault
     SameThing Region
   | -- | a construction with several answers, for which the program chooses none: these answers
     Several Region Sought [Candidate]
+  | -- | a tangent of which there are several: each line, and for each of the two arguments whether
+    -- the circle lies on the left of the line. This is 'Nothing' if the argument is a point, or if
+    -- the program writes the side
+    SeveralTangents Region Sought [(Candidate, [Maybe Bool])]
   | -- | a choice that excludes every answer: all answers
     NoneFits Region Sought [Candidate]
   | -- | a choice that leaves several answers: these answers. For @near@ with two answers that are
@@ -40,8 +48,8 @@ data ConstructionFault
   | -- | a construction without an answer: the reason
     NoAnswer Region NoAnswer
   | -- | the point of contact of figures that do not touch: the least distance by which one of them
-    -- would have to move, so that they touch
-    NotTouching Region Mm
+    -- would have to move, so that they touch, and the points in which they cross
+    NotTouching Region Mm [Point]
   | -- | a circle through three points that lie on one line
     OnOneLine Region
   deriving stock (Eq, Show)
@@ -79,38 +87,133 @@ data TangentObstacle
     CirclesOverlap Mm
   deriving stock (Eq, Show)
 
--- | The report of a fault.
-toReport :: ConstructionFault -> Report
-toReport fault = case fault of
+-- | The report of a fault. @arguments@ are the regions of the arguments of the call.
+toReport :: [Region] -> ConstructionFault -> Report
+toReport arguments fault = case fault of
   NothingCommon region a b gap ->
     (at region "E0330" (describe a <> " and " <> describe b <> " do not meet"))
-      { message = ["They miss one another by " <> Decimal.nonZeroMm gap <> "."]
+      { message = ["They are " <> Decimal.nonZeroMm gap <> " apart."],
+        hints = ["Correct the numbers of one of the two, so that they meet."]
       }
   SameThing region ->
-    at region "E0331" "these are the same curve, so they have no one point in common"
+    (at region "E0331" "both are the same curve, so they have no one point in common")
+      { hints = ["Write two different ones."]
+      }
   Several region sought candidates ->
-    (at region "E0332" ("there is more than one such " <> nameOf sought))
+    (at region "E0332" (manyTitle sought (length candidates)))
       { message = [listed candidates],
+        fixes = concatMap (chosenNear region arguments sought) candidates,
+        hints = [choiceHint sought]
+      }
+  SeveralTangents region sought answers ->
+    (at region "E0332" (manyTitle sought (length answers)))
+      { message = [listed (map fst answers)],
+        fixes = concatMap (uncurry (chosenBySides arguments)) answers,
         hints = [choiceHint sought]
       }
   NoneFits region sought candidates ->
-    (at region "E0333" ("no such " <> nameOf sought <> " is where it is sought"))
-      { message = [listed candidates]
+    (at region "E0333" ("no such " <> nameOf sought <> " lies where the choice looks for it"))
+      { message = [listed candidates],
+        fixes = concatMap (chosenNear region arguments sought) candidates
       }
   SeveralFit region sought candidates ->
     (at region "E0334" ("the choice leaves more than one " <> nameOf sought))
       { message = [listed candidates],
+        fixes = concatMap (chosenNear region arguments sought) candidates,
         hints = ["Choose by something that only one of them has."]
       }
   NoAnswer region reason ->
     let (result, why) = noAnswerTexts reason
-     in (at region "E0335" ("there is no such " <> result)) {message = [why]}
-  NotTouching region gap ->
+     in (at region "E0335" ("there is no such " <> result))
+          { message = [why],
+            fixes = limitFixes arguments reason,
+            hints = ["Correct the numbers." | null (limitFixes arguments reason)]
+          }
+  NotTouching region gap points ->
     (at region "E0336" ("these do not touch: they miss it by " <> Decimal.mm gap))
-      { hints = ["For the points in which they cross, write intersection."]
+      { fixes = map (crossingFix region) points,
+        hints = ["Correct the numbers, so that they touch."]
       }
   OnOneLine region ->
-    at region "E0337" "no circle goes through three points of one line"
+    (at region "E0337" "the three points lie on one line, and no circle goes through them")
+      { hints = ["Correct the coordinates of one of them."]
+      }
+
+-- Fixes
+
+-- | Fix that chooses one answer of a call by a point near it. The choice takes the place of the one
+-- that the program writes behind the arguments, if there is one.
+chosenNear :: Region -> [Region] -> Sought -> Candidate -> [Fix]
+chosenNear region arguments sought candidate =
+  [ Fix.proposed
+      ( Fix.exchange
+          ("Write " <> words' <> ".")
+          (Region (end figure) (end region - 1))
+          (", " <> words')
+      )
+    | Just p <- [keyPoint],
+      let words' = "near " <> Vec.toText 4 p,
+      figure : _ <- [drop (if sought == SoughtCircle then 2 else 1) arguments]
+  ]
+  where
+    keyPoint = case candidate of
+      APoint p -> Just p
+      ACircle c -> Just (Carrier.centre c)
+      ALine _ -> Nothing
+
+-- | Fix that chooses a tangent by the sides on which the circles lie: the words left and right
+-- before the arguments.
+chosenBySides :: [Region] -> Candidate -> [Maybe Bool] -> [Fix]
+chosenBySides arguments candidate sides =
+  [ Fix.proposed . Fix.joined title' $
+      [ Fix.insertion "" (start at') (word <> " ")
+        | (at', Just isLeft) <- zip arguments sides,
+          let word = sideWord isLeft
+      ]
+    | not (null sideWords)
+  ]
+  where
+    title' =
+      "Choose "
+        <> described candidate
+        <> ": write "
+        <> Text.intercalate " and " sideWords
+        <> "."
+    sideWords = case [sideWord isLeft | Just isLeft <- sides] of
+      [a, b] -> [a <> " before the first circle", b <> " before the second"]
+      words' -> map (<> " before the circle") words'
+    sideWord isLeft = if isLeft then "left" else "right"
+
+-- | Fixes of an argument that lies beyond the ends of a curve: the number at each end.
+limitFixes :: [Region] -> NoAnswer -> [Fix]
+limitFixes arguments reason = case (reason, drop 1 arguments) of
+  (OutsideCurve (Mm low) (Mm high), argument : _) ->
+    [limit argument (rounded ceiling low), limit argument (rounded floor high)]
+  (BeyondLength (Mm l), argument : _) -> [limit argument (rounded floor l)]
+  _ -> []
+  where
+    limit argument x =
+      let text = Decimal.mm (Mm x)
+       in Fix.proposed (Fix.exchange ("Write " <> text <> ".") argument text)
+    -- Rounds to three decimals, towards the curve.
+    rounded :: (Double -> Int) -> Double -> Double
+    rounded towards x
+      | abs (x - nearest) < 1e-9 = nearest
+      | otherwise = fromIntegral (towards (x * 1000)) / 1000
+      where
+        nearest = fromIntegral (round (x * 1000) :: Int) / 1000
+
+-- | Fix that writes an intersection near a point in place of a point of tangency.
+crossingFix :: Region -> Point -> Fix
+crossingFix region p =
+  Fix.proposed . Fix.joined ("They cross: write intersection and near " <> Vec.toText 4 p <> ".") $
+    [ Fix.exchange "" name "intersection",
+      Fix.insertion "" (end region - 1) (", near " <> Vec.toText 4 p)
+    ]
+  where
+    name = Region (start region) (start region + Text.length "tangency")
+
+-- Words
 
 -- | The name that a report uses for a kind of result.
 nameOf :: Sought -> Text
@@ -119,6 +222,18 @@ nameOf sought = case sought of
   SoughtTangency -> "point of tangency"
   SoughtLine -> "line"
   SoughtCircle -> "circle"
+
+-- | The title of a report on a construction with @count@ answers.
+manyTitle :: Sought -> Int -> Text
+manyTitle sought count = "there are " <> Decimal.whole count <> " such " <> many sought
+
+-- | The plural of the name of a kind of result.
+many :: Sought -> Text
+many sought = case sought of
+  SoughtPoint -> "points"
+  SoughtTangency -> "points of tangency"
+  SoughtLine -> "lines"
+  SoughtCircle -> "circles"
 
 -- | The hint of a report that tells the user how to choose one of several answers.
 choiceHint :: Sought -> Text

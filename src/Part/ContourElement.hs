@@ -53,20 +53,20 @@ import Part.Value qualified as Value
 -- | Evaluates the items of a contour's body, and lets "Part.LinkSolver" compute the segments. If
 -- elements contain mistakes, it fails with all of these mistakes. Otherwise it fails with the
 -- faults of the links.
-contour :: Environment -> Located Name -> Checked.Closure -> [Item] -> Eval Contour
+contour :: Environment -> Located Name -> Located Checked.Closure -> [Item] -> Eval Contour
 contour env name closure items = do
   linked <- Evaluation.collect (item env) items
   case NonEmpty.nonEmpty linked of
     Nothing -> Evaluation.mistake (InContour (EmptyContour (region name) (value name)))
-    Just some -> case LinkSolver.solve (region name) ends some of
+    Just some -> case LinkSolver.solve (region name) (Located (region closure) ends) some of
       Left faults ->
-        Evaluation.mistakes [Error (InContour fault) [] | fault <- NonEmpty.toList faults]
+        Evaluation.mistakes [Error (InContour fault) [] [] | fault <- NonEmpty.toList faults]
       Right elements ->
         let written = map asWritten (NonEmpty.toList some)
             forced = foldr seq written written
          in pure Contour {contourName = name, ends, elements, writtenElements = forced}
   where
-    ends = case closure of
+    ends = case value closure of
       Checked.Open -> Open
       Checked.Closed -> Closed
 
@@ -86,7 +86,7 @@ asWritten w =
 -- body once for every value of its list. An open contour that is used as an element gives several
 -- elements, too.
 item :: Environment -> Item -> Eval [LinkSolver.LinkedElement]
-item env (Located _ i) = case i of
+item env (Located at i) = case i of
   For name list body -> do
     vs <- Expression.items <$> Expression.evaluate env list
     Evaluation.collect (\v -> Evaluation.collect (item (Expression.bind name v env)) body) vs
@@ -98,7 +98,7 @@ item env (Located _ i) = case i of
     finish <- foldl (\before m -> before >>= modified env m) (pure plainFinish) modifiers
     bevel <- bevelOf env v modifiers
     link' <- traverse (linkOf env) link
-    linked <- linkedElements (region e) sense v finish link'
+    linked <- linkedElements at (region e) sense v finish link'
     pure (if null bevel then linked else map (\w -> w {LinkSolver.bevel}) linked)
 
 -- | Adds the effect of one modifier to the finish (feed, slow-down and allowance) that the earlier
@@ -119,16 +119,18 @@ bevelOf env v modifiers = case [e | Located _ (Bevel e) <- modifiers] of
   [] -> pure []
   e : _ -> Piece.bevelled env (case v of CurveValue c -> Just c; _ -> Nothing) e
 
--- | The elements that a value gives: several for an open contour, otherwise one. @at@ is the region
--- of the value in the program, and @sense@ the sense that the program writes before a circle.
+-- | The elements that a value gives: several for an open contour, otherwise one. @whole@ is the
+-- region of the item, @at@ that of the value in it, and @sense@ the sense that the program writes
+-- before a circle.
 linkedElements ::
+  Region ->
   Region ->
   Maybe Part.Sense ->
   Value ->
   Finish ->
   Maybe (Region, Link) ->
   Eval [LinkSolver.LinkedElement]
-linkedElements at sense v finish link = case (v, sense) of
+linkedElements whole at sense v finish link = case (v, sense) of
   (CircleValue c, Just Checked.Clockwise) -> one (OnCircle Clockwise c) Nothing Nothing
   (CircleValue c, Just Checked.CounterClockwise) ->
     one (OnCircle CounterClockwise c) Nothing Nothing
@@ -139,7 +141,7 @@ linkedElements at sense v finish link = case (v, sense) of
      in one (OnCurve (Curve.approximation c)) (listToMaybe ends') (listToMaybe (drop 1 ends'))
   (ContourValue c, Nothing) -> case ends c of
     Closed -> Evaluation.mistake (InContour (ClosedElement at (value (contourName c))))
-    Open -> pure (elementsOfContour at finish link (NonEmpty.toList (elements c)))
+    Open -> pure (elementsOfContour whole at finish link (NonEmpty.toList (elements c)))
   _ -> bug "a value that is no element where one was checked"
   where
     -- Evaluates the element @w@ at once: a thunk of it would keep the value @v@ in memory.
@@ -147,6 +149,7 @@ linkedElements at sense v finish link = case (v, sense) of
       let w =
             LinkSolver.LinkedElement
               { LinkSolver.elementRegion = at,
+                LinkSolver.itemRegion = whole,
                 LinkSolver.carrier,
                 LinkSolver.ownStart,
                 LinkSolver.ownEnd,
@@ -158,32 +161,37 @@ linkedElements at sense v finish link = case (v, sense) of
        in w `seq` pure [w]
 
 -- | The elements that an open contour gives when it is used as an element of another contour: one
--- for each of its lines, arcs and curves. 'Fixed' links, which have the region @at@, join these
+-- for each of its lines, arcs and curves. @whole@ is the region of the item that names the contour.
+-- 'Fixed' links, which have the region @at@, join these
 -- elements to one another. @link@ joins the last of them to the next element of the other contour.
 -- @finish@ is that of the whole used contour; 'orElse' combines it with the finish of each element.
 elementsOfContour ::
+  Region ->
   Region ->
   Finish ->
   Maybe (Region, Link) ->
   [Part.Element] ->
   [LinkSolver.LinkedElement]
-elementsOfContour at finish link segments = case Part.curveRuns segments of
+elementsOfContour whole at finish link segments = case Part.curveRuns segments of
   [] -> []
-  curves -> zipWith (elementOfRun finish) curves (map fixed (init curves) <> [link])
+  curves -> zipWith (elementOfRun whole finish) curves (map fixed (init curves) <> [link])
   where
     fixed curve = Just (at, Fixed (Segment.end (Part.segment (NonEmpty.last curve))))
 
--- | One element, made from a run: the segments of one line, arc or curve. 'orElse' combines the
+-- | One element, made from a run: the segments of one line, arc or curve. @whole@ is the region of
+-- the item that names the run's contour. 'orElse' combines the
 -- finish of the run with @finish@, that of the whole used contour. @link@ is the link after the
 -- element.
 elementOfRun ::
+  Region ->
   Finish ->
   NonEmpty Part.Element ->
   Maybe (Region, Link) ->
   LinkSolver.LinkedElement
-elementOfRun finish run@(e :| more) link =
+elementOfRun whole finish run@(e :| more) link =
   LinkSolver.LinkedElement
     { LinkSolver.elementRegion = Part.origin e,
+      LinkSolver.itemRegion = whole,
       LinkSolver.carrier =
         if null more
           then ElementCarrier.ofSegment (Part.segment e)

@@ -175,7 +175,12 @@ faulty region table fault = Evaluation.mistake $ case fault of
   Exact.TooFew n
     | count >= n -> badPoints region table Nothing (FewDifferent (count - 1) n)
     | otherwise -> badPoints region table Nothing (FewPoints count n)
-  Exact.Coincident k -> badPoints region table (rowAt table (k + 1)) (SamePoint (k + 1))
+  Exact.Coincident k ->
+    badPoints
+      region
+      table
+      (rowAt table (k + 1))
+      (SamePoint (k + 1) (rowAt table k /= rowAt table (k + 1)))
   Exact.EvenCount n -> badPoints region table Nothing (EvenPoints n)
   Exact.NotMonotone k -> badPoints region table (rowAt table (k + 1)) (Unordered (k + 1))
   Exact.Disordered k -> badPoints region table (rowAt table (k + 1)) (Unordered (k + 1))

@@ -22,7 +22,8 @@ import Data.Maybe (fromMaybe)
 import Data.Text (Text)
 import Geometry.Vec (Point)
 import Geometry.Vec qualified as Vec
-import Part.ErrorText (Candidate (APoint), at, below, downTo, listed, stop)
+import Part.ErrorText (Candidate (APoint), at, below, downTo, listed)
+import Report.Fix qualified as Fix
 import Report.Report (Label (..), Report (..))
 
 -- | A fault of a curve or a piece. The first field of every constructor is the region of the call,
@@ -69,8 +70,9 @@ data ListFault
   | -- | too few different points for a closed curve: the number of them, and the number that is
     -- needed
     FewDifferent Int Int
-  | -- | a row with the same point as the row before it: the number of the row
-    SamePoint Int
+  | -- | a row with the same point as the row before it: the number of the row, and true if the rows
+    -- are two different ones of the program
+    SamePoint Int Bool
   | -- | parabolas through an even number of points, although an odd number is needed: the number of
     -- points
     EvenPoints Int
@@ -97,6 +99,12 @@ toReport fault = case fault of
   BadPoints region listing row listFault ->
     (at (fromMaybe region row) "E0349" (listTitle (nounOf listing) listFault))
       { others = [Label region "for this curve" | Just r <- [row], r /= region],
+        fixes =
+          [ Fix.proposed (Fix.removal ("Leave this " <> nounOf listing <> " out.") r)
+            | SamePoint _ True <- [listFault],
+              InTable <- [listing],
+              Just r <- [row]
+          ],
         hints = listHint (nounOf listing) listFault
       }
   NoSuchRow region listing n count ->
@@ -147,12 +155,17 @@ toReport fault = case fault of
   JoggleCoordinate region x points range -> coordinateReport region x points range
   JoggleNowhere region ->
     (at region "E0354" "a joggle needs two different coordinates")
-      { message = [stop "15074"]
+      { controlStop = Just "15074",
+        hints = ["Write the x at which the joggle begins and another one at which it ends."]
       }
   JoggleRadius region r available largest -> radiusReport region r available largest
   JoggleDepth region r least ->
     (at region "E0355" ("a joggle of radius " <> Decimal.mm r <> " cannot go so deep"))
-      { hints = ["Its radius must be more than half of its depth, " <> Decimal.mm least <> "."]
+      { message = ["Its radius has to be more than half of its depth, " <> Decimal.mm least <> "."],
+        fixes =
+          [ Fix.proposed (Fix.exchange ("Write a larger radius: " <> text <> ".") region text)
+            | let text = Decimal.mm (above least)
+          ]
       }
 
 -- | The report of a joggle whose coordinate @x@ does not belong to exactly one point of the piece.
@@ -160,7 +173,8 @@ toReport fault = case fault of
 coordinateReport :: Region -> Mm -> [Point] -> (Mm, Mm) -> Report
 coordinateReport region x points (low, high) =
   (at region "E0354" title)
-    { message = [detail, stop "15074"],
+    { message = [detail],
+      controlStop = Just "15074",
       hints = ["A joggle needs x coordinates that the piece passes once."]
     }
   where
@@ -175,7 +189,11 @@ coordinateReport region x points (low, high) =
 -- between its ends. @largest@ is the largest radius that fits, or 'Nothing' if none fits.
 radiusReport :: Region -> Mm -> Mm -> Maybe Mm -> Report
 radiusReport region r available largest =
-  (at region "E0355" title) {message = [stop "14174"], hints = [maybe none fitting largest]}
+  (at region "E0355" title)
+    { controlStop = Just "14174",
+      fixes = foldMap fitting largest,
+      hints = [none | null largest]
+    }
   where
     title =
       "a joggle of radius "
@@ -187,7 +205,18 @@ radiusReport region r available largest =
       "No radius fits: the depth must be less than half of this length, "
         <> downTo (times 0.5 available)
         <> "."
-    fitting m = "The largest radius that fits is " <> downTo m <> "."
+    fitting m =
+      [ Fix.proposed
+          ( Fix.exchange
+              ("Write the largest radius that fits: " <> downTo m <> ".")
+              region
+              (downTo m)
+          )
+      ]
+
+-- | A length above a limit, rounded up to three decimals.
+above :: Mm -> Mm
+above (Mm x) = Mm (fromIntegral (ceiling (x * 1000 + 1) :: Int) / 1000)
 
 -- | The title of a report on row or point @n@, which does not exist among @count@ rows or points.
 noRowTitle :: Listing -> Int -> Int -> Text
@@ -215,7 +244,7 @@ listTitle noun fault = case fault of
     "a curve needs " <> Decimal.whole least <> " points, " <> thereAre count
   FewDifferent count least ->
     "a closed curve needs " <> Decimal.whole least <> " different points, " <> thereAre count
-  SamePoint k -> numbered k <> " is the same point as the one before it"
+  SamePoint k _ -> numbered k <> " is the same point as the one before it"
   EvenPoints n -> "parabolas need an odd number of points, there are " <> Decimal.whole n
   Unordered k -> "x does not go on in " <> numbered k <> " as it began"
   SectionRows s n ->
@@ -255,7 +284,7 @@ listHint :: Text -> ListFault -> [Text]
 listHint noun fault = case fault of
   FewPoints _ _ -> []
   FewDifferent _ _ -> ["The last point, when it is the first again, does not count."]
-  SamePoint _ -> ["Leave one of the two " <> noun <> "s out."]
+  SamePoint _ _ -> ["Leave one of the two " <> noun <> "s out."]
   EvenPoints _ ->
     [ "The first parabola goes through "
         <> noun

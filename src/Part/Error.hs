@@ -13,9 +13,10 @@ module Part.Error
 where
 
 import Base.Decimal qualified as Decimal
-import Base.Quantity (Mm)
+import Base.Quantity (Mm (..), times)
 import Base.Region (Region (Region))
 import Data.List (nub)
+import Data.Maybe (isNothing, listToMaybe)
 import Data.Text (Text)
 import Data.Text qualified as Text
 import Geometry.Vec (Point)
@@ -27,16 +28,25 @@ import Part.ContourError qualified as ContourError
 import Part.CurveError (CurveMistake)
 import Part.CurveError qualified as CurveError
 import Part.ErrorText (at)
-import Part.Parameter (Domain, LimitedQuantity, Range, WholeNumber)
+import Part.Parameter (Domain, LimitedQuantity, Range (..), WholeNumber)
 import Part.Parameter qualified as Parameter
 import Part.Part (CutterKind (..))
 import Part.PocketError (PocketMisfit)
 import Part.PocketError qualified as PocketError
+import Report.Fix (Fix)
+import Report.Fix qualified as Fix
 import Report.Report (Label (..), Report (..), quote)
 
--- | A fact, and the regions of the function calls in whose evaluation it was found, the innermost
--- call first.
-data Error = Error {fact :: ValueFact, calls :: [Region]}
+-- | A mistake of the program.
+data Error = Error
+  { fact :: ValueFact,
+    -- | the regions of the calls of the program's functions in whose evaluation the mistake was
+    -- found, the innermost call first
+    calls :: [Region],
+    -- | the regions of the arguments of the built-in function that found the mistake, without
+    -- @first@ and @last@; empty if no built-in function found it
+    arguments :: [Region]
+  }
   deriving stock (Eq, Show)
 
 -- | A mistake in a value, a statement or the geometry. The first field of a constructor is the
@@ -51,7 +61,9 @@ data ValueFact
     OutOfReach Region Mm
   | -- | a program whose evaluation takes too many steps: the number of steps that is allowed
     TooMuchWork Region Int
-  | RadiusNotPositive Region Mm
+  | -- | a circle whose radius is not above 0: this radius, and the index of the argument that gives
+    -- it, if there is one
+    RadiusNotPositive Region Mm (Maybe Int)
   | -- | a line through two equal points: this point
     ZeroLine Region Point
   | -- | a quantity that must be above 0: its kind and its value, in the unit of 'Parameter.written'
@@ -75,8 +87,9 @@ data ValueFact
   | -- | a statement for which the tool in the spindle has the wrong kind: the statement, and that
     -- kind
     WrongCutter Region CutterStatement CutterKind
-  | -- | passes at several heights with a cutter that is widest at its tip
-    StepsUndercut Region
+  | -- | passes at several heights with a cutter that is widest at its tip: the region of the
+    -- stepdown with the word before it
+    StepsUndercut Region (Maybe Region)
   | InConstruction ConstructionFault
   | InContour ContourFault
   | InCurve CurveMistake
@@ -90,41 +103,58 @@ data CutterStatement = MillStatement | TurnStatement | PocketStatement | DrillSt
 -- | The report of a mistake. It also points at the outermost and at the innermost function call in
 -- which the mistake was found.
 toReport :: Error -> Report
-toReport (Error fact calls) =
+toReport (Error fact calls arguments) =
   report {others = others report <> [Label c "in this call" | c <- nub (innermost <> outermost)]}
   where
-    report = factReport fact
+    report = factReport arguments fact
     innermost = take 1 calls
     outermost = take 1 (reverse calls)
 
--- | The report of a fact, without the function calls.
-factReport :: ValueFact -> Report
-factReport fact = case fact of
-  DivisionByZero region -> at region "E0301" "this divides by zero"
+-- | The report of a fact, without the function calls. @arguments@ are the regions of the arguments
+-- of the built-in function that found it.
+factReport :: [Region] -> ValueFact -> Report
+factReport arguments fact = case fact of
+  DivisionByZero region ->
+    (at region "E0301" "this divides by 0")
+      { hints = ["Check the divisor, or leave the division out where it is 0: if … then … else …"]
+      }
   OutOfDomain region domain ->
     let (function, argument, range) = Parameter.domainTexts domain
      in (at region "E0302" (function <> " of " <> argument <> " does not exist"))
-          { message = [function <> " takes " <> range <> "."]
+          { message = [function <> " takes " <> range <> "."],
+            hints = ["Check the numbers from which the argument is computed."]
           }
-  TooLarge region -> at region "E0303" "the result is too large for a number"
+  TooLarge region ->
+    (at region "E0303" "the result is too large for a number")
+      { hints = ["Check the numbers from which it is computed."]
+      }
   OutOfReach region limit ->
     (at region "E0326" "this is further than any machine reaches")
       { message =
           [ "A place is no further than "
               <> Decimal.mm limit
               <> " from zero, and no radius is longer."
-          ]
+          ],
+        hints = ["Check the units and the decimal points of the numbers."]
       }
   TooMuchWork region limit ->
     (at region "E0327" ("this takes more than " <> Decimal.whole limit <> " steps to compute"))
       { message =
           [ "Functions that use one another several times, or repetitions in repetitions, \
             \multiply their steps."
-          ]
+          ],
+        hints = ["Repeat fewer times, or give a name to a value that is computed several times."]
       }
-  RadiusNotPositive region r ->
-    (at region "E0304" ("a circle needs a positive radius, this one is " <> Decimal.mm r))
-      { label = Decimal.mm r
+  RadiusNotPositive region r index ->
+    (at region "E0304" ("a circle needs a radius above 0, and this one is " <> Decimal.mm r))
+      { label = Decimal.mm r,
+        fixes =
+          [ withoutMinus argument (Decimal.mm (times (-1) r))
+            | r < Mm 0,
+              Just k <- [index],
+              argument : _ <- [drop k arguments]
+          ],
+        hints = ["Give the circle a radius above 0." | isNothing index || r >= Mm 0]
       }
   ZeroLine region p ->
     (at region "E0305" "this line has no length")
@@ -132,48 +162,42 @@ factReport fact = case fact of
           [ "Both its points are "
               <> Vec.toText 4 p
               <> "; a line needs two different ones."
-          ]
+          ],
+        hints = ["Correct the coordinates of one of them."]
       }
   NotPositive region parameter x ->
-    at
-      region
-      "E0306"
-      ( Parameter.name parameter
-          <> " must be more than zero, this one is "
-          <> Parameter.written parameter x
-      )
-  Negative region parameter x ->
-    at
-      region
-      "E0345"
-      ( Parameter.name parameter
-          <> " must not be negative, this one is "
-          <> Parameter.written parameter x
-      )
-  NotWhole region number range x ->
-    ( at
-        region
-        "E0338"
-        (Parameter.wholeName number <> " must be a whole number " <> Parameter.rangeText range)
-    )
-      { label = Decimal.short 6 x
+    (at region "E0306" (limited parameter "has to be more than 0" x))
+      { fixes = signFixes region parameter arguments x,
+        hints = ["Write a number above 0." | null (signFixes region parameter arguments x)]
       }
+  Negative region parameter x ->
+    (at region "E0345" (limited parameter "cannot be less than 0" x))
+      { fixes = signFixes region parameter arguments x
+      }
+  NotWhole region number range x -> notWholeReport region number range arguments x
   NoSuchItem region n count ->
     (at region "E0339" ("the list has no item " <> Decimal.whole n))
-      { message =
-          [ "It has "
-              <> Decimal.whole count
-              <> (if count == 1 then " item" else " items")
-              <> ", counted from 1."
+      { message = ["It has " <> counted count "item" <> ", which are counted from 1."],
+        fixes =
+          [ Fix.proposed
+              (Fix.exchange ("Take the last one: " <> last' <> ".") argument last')
+            | count > 0,
+              let last' = Decimal.whole count,
+              _ : argument : _ <- [arguments]
           ]
       }
   StepOfZero region ->
-    at region "E0340" "a range cannot go in steps of zero"
+    (at region "E0340" "a range cannot go in steps of 0")
+      { hints = ["Write a step above 0, or one below 0 to count downwards."]
+      }
   NothingToDrill region ->
-    at region "E0346" "there is no point to drill at"
+    (at region "E0346" "this list of points is empty, so there is nothing to drill")
+      { hints = ["Write a point in the list, or leave the statement out."]
+      }
   DoesNotHold region values ->
     (at region "E0341" "this does not hold")
-      { others = [Label r value | (r, value) <- values]
+      { others = [Label r value | (r, value) <- values],
+        hints = ["Correct the numbers that the assertion compares, or the assertion."]
       }
   DoNotAgree region (leftRegion, left) (rightRegion, right) difference allowed ->
     (at region "E0342" ("this is " <> left <> ", not " <> right))
@@ -182,18 +206,84 @@ factReport fact = case fact of
           [ if difference == allowed
               then "They differ by somewhat more than " <> allowed <> ", which is allowed."
               else "They differ by " <> difference <> "; " <> allowed <> " is allowed."
-          ]
+          ],
+        hints = ["Correct one of the two, or allow a larger difference: within …"]
       }
   WrongCutter region statement kind -> wrongCutterReport region statement kind
-  StepsUndercut region ->
+  StepsUndercut region steps ->
     (at region "E0360" "a cutter that is widest at its tip cannot go down in steps")
-      { message = ["Above the last depth its tip would cut into what leans over that."],
-        hints = ["Give the depth without a step, or clear the way before with an upright mill."]
+      { message = ["Above the last depth its tip would cut into the wall that leans over it."],
+        fixes = [Fix.proposed (Fix.removal "Leave the step out: one pass." s) | Just s <- [steps]],
+        hints = ["Or clear the way before with an upright mill."]
       }
-  InConstruction fault -> ConstructionError.toReport fault
+  InConstruction fault -> ConstructionError.toReport arguments fault
   InContour fault -> ContourError.toReport fault
   InCurve fault -> CurveError.toReport fault
   InPocket fault -> PocketError.toReport fault
+
+-- | The sentence that a quantity has the value @x@, which breaks a rule.
+limited :: LimitedQuantity -> Text -> Double -> Text
+limited parameter rule x =
+  Parameter.name parameter <> " " <> rule <> ", and this one is " <> Parameter.written parameter x
+
+-- | Fixes of a quantity with the negative value @x@: the same number without its minus.
+signFixes :: Region -> LimitedQuantity -> [Region] -> Double -> [Fix]
+signFixes region parameter arguments x =
+  [withoutMinus place (Parameter.written parameter (negate x)) | x < 0, Just place <- [written]]
+  where
+    written = case parameter of
+      Parameter.CurveTolerance -> listToMaybe (reverse arguments)
+      Parameter.ScalingFactor -> Nothing
+      Parameter.RadiusAtHeight -> Nothing
+      Parameter.OneSidedTolerance -> Nothing
+      _ -> Just region
+
+-- | Fix that writes a number without its minus.
+withoutMinus :: Region -> Text -> Fix
+withoutMinus region text =
+  Fix.proposed (Fix.exchange ("Write it without the minus: " <> text <> ".") region text)
+
+-- | A count with its noun.
+counted :: Int -> Text -> Text
+counted n noun = Decimal.whole n <> " " <> noun <> (if n == 1 then "" else "s")
+
+-- | The report of a number that is not whole or outside of its range. The fix writes the nearest
+-- number that is allowed.
+notWholeReport :: Region -> WholeNumber -> Range -> [Region] -> Double -> Report
+notWholeReport region number range arguments x =
+  ( at
+      region
+      "E0338"
+      ( Parameter.wholeName number
+          <> " has to be a whole number "
+          <> Parameter.rangeText range
+          <> ", and this one is "
+          <> Decimal.short 6 x
+      )
+  )
+    { label = Decimal.short 6 x,
+      fixes =
+        [ Fix.proposed (Fix.exchange ("Write " <> text <> ".") place text)
+          | let text = Decimal.whole nearest,
+            Just place <- [written]
+        ]
+    }
+  where
+    nearest = case range of
+      UpTo high -> min high (round (min 1e9 x))
+      FromTo low high -> max low (min high (round (max (-1e9) (min 1e9 x))))
+    argument k = listToMaybe (drop k arguments)
+    written = case number of
+      Parameter.ToolNumber -> Just region
+      Parameter.AuxiliaryCommand -> Just region
+      Parameter.PassCount -> Nothing
+      Parameter.PeckCount -> Nothing
+      Parameter.RowPointCount -> argument 2
+      Parameter.RowCount -> argument 4
+      Parameter.PointCount -> argument 1
+      Parameter.ItemNumber -> argument 1
+      Parameter.TableRowNumber -> Nothing
+      Parameter.ListPointNumber -> Nothing
 
 -- | The report of a statement for which the tool has the wrong kind. It points at the keyword with
 -- which the statement begins.
@@ -201,14 +291,17 @@ wrongCutterReport :: Region -> CutterStatement -> CutterKind -> Report
 wrongCutterReport (Region begin _) statement kind =
   (at (Region begin (begin + Text.length keyword)) "E0344" (quote keyword <> " needs " <> needed))
     { message = ["The tool is " <> tool <> "."],
-      hints = ["Change it first: change 2 " <> change]
+      fixes =
+        [ Fix.proposed
+            (Fix.insertion ("Change the tool first: " <> change <> ".") begin (change <> "\n"))
+        ]
     }
   where
     (keyword, needed, change) = case statement of
-      MillStatement -> ("mill", "a mill", "mill(diameter 5 mm)")
-      TurnStatement -> ("turn", "a turning tool", "turn(nose 0.4 mm)")
-      PocketStatement -> ("pocket", "a mill", "mill(diameter 5 mm)")
-      DrillStatement -> ("drill", "a drill or a mill", "drill(diameter 5 mm)")
+      MillStatement -> ("mill", "a mill", "change 2 mill(diameter 5 mm)")
+      TurnStatement -> ("turn", "a turning tool", "change 2 turn(nose 0.4 mm)")
+      PocketStatement -> ("pocket", "a mill", "change 2 mill(diameter 5 mm)")
+      DrillStatement -> ("drill", "a drill or a mill", "change 2 drill(diameter 5 mm)")
     tool = case kind of
       MillingCutter -> "a mill"
       ConeCutter -> "a cone"

@@ -1,15 +1,14 @@
 -- | The phrases that all reports on a part share. They name elements and the answers of
--- constructions, and give limits rounded to three decimals. They also quote the control stops of
--- the Minsk-22 system. A control stop is a numbered halt of that system at a wrong input.
+-- constructions, and give limits rounded to three decimals.
 module Part.ErrorText
   ( at,
     describe,
     Candidate (..),
     listed,
+    described,
     andMore,
     below,
     downTo,
-    stop,
   )
 where
 
@@ -72,11 +71,13 @@ listed candidates = case candidates of
       <> " and "
       <> described (last candidates)
       <> "."
-  where
-    described candidate = case candidate of
-      APoint p -> Vec.toText 4 p
-      ALine l -> describeLine l
-      ACircle c -> describeCircle c
+
+-- | The words for an answer.
+described :: Candidate -> Text
+described candidate = case candidate of
+  APoint p -> Vec.toText 4 p
+  ALine l -> describeLine l
+  ACircle c -> describeCircle c
 
 -- | The largest number of answers that a report lists. This is also the largest number of circles
 -- of one radius that can touch two given circles.
@@ -101,8 +102,3 @@ below (Mm x) = downTo (Mm (x + noise))
 -- | The text of a limit in mm that values may reach. The limit is rounded down to three decimals.
 downTo :: Mm -> Text
 downTo (Mm x) = Decimal.mm (Mm (fromIntegral (floor (x * 1000) :: Int) / 1000))
-
--- | The sentence that names the control stop @number@, at which the Minsk-22 system halted for the
--- same mistake.
-stop :: Text -> Text
-stop number = "The Minsk-22 system stopped here with " <> number <> "."

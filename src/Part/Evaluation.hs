@@ -14,6 +14,7 @@ module Part.Evaluation
     spend,
     mostSteps,
     inCall,
+    withArguments,
   )
 where
 
@@ -59,7 +60,7 @@ run fuel (Eval e) = case e fuel of
 
 -- | Fails with one mistake.
 mistake :: ValueFact -> Eval a
-mistake fact = mistakes [Error fact []]
+mistake fact = mistakes [Error fact [] []]
 
 -- | Fails with several mistakes.
 mistakes :: [Error] -> Eval a
@@ -111,7 +112,7 @@ spend :: Region -> Int -> Eval ()
 spend region wanted = steps $ \left -> case () of
   _
     | left < 0 -> Failed left []
-    | wanted > left -> Failed (-1) [Error (TooMuchWork region mostSteps) []]
+    | wanted > left -> Failed (-1) [Error (TooMuchWork region mostSteps) [] []]
     | otherwise -> Found (left - wanted) ()
 
 -- | The number of steps that the evaluation of a program may take.
@@ -123,4 +124,11 @@ inCall :: Region -> Eval a -> Eval a
 inCall region (Eval e) = steps $ \left -> case e left of
   Found left' a -> Found left' a
   Failed left' errors ->
-    Failed left' (map (\(Error fact calls) -> Error fact (calls <> [region])) errors)
+    Failed left' (map (\m -> m {calls = calls m <> [region]}) errors)
+
+-- | Adds the regions of the arguments of a built-in function to the mistakes that its computation
+-- reports.
+withArguments :: [Region] -> Eval a -> Eval a
+withArguments regions (Eval e) = steps $ \left -> case e left of
+  Found left' a -> Found left' a
+  Failed left' errors -> Failed left' (map (\m -> m {arguments = regions}) errors)

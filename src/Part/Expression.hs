@@ -77,7 +77,9 @@ evaluate env (Located region e) =
       maybe Evaluation.absent pure (Map.lookup name (locals env) <|> Map.lookup name (values env))
     Apply name arguments ->
       maybe Evaluation.absent (call env region arguments) (Map.lookup name (functions env))
-    Builtin builtin arguments -> traverse argument arguments >>= Builtin.apply region builtin
+    Builtin builtin arguments -> do
+      found <- traverse argument arguments
+      Evaluation.withArguments (regionsOf arguments) (Builtin.apply region builtin found)
     Negate inner -> evaluate env inner >>= Builtin.binary region Multiply (Quantity (-1))
     Not inner -> TruthValue . not . isTrue <$> evaluate env inner
     Binary And l r -> evaluate env l >>= \a -> if isTrue a then evaluate env r else pure a
@@ -110,6 +112,15 @@ evaluate env (Located region e) =
       Given x -> Value.Plain <$> evaluate env x
       Chosen choice x -> Value.Choosing choice <$> evaluate env x
       Ranked rank -> pure (Value.Ranking rank)
+
+-- | The regions of the arguments of a built-in function, without @first@ and @last@.
+regionsOf :: [Argument] -> [Region]
+regionsOf = concatMap regionOf
+  where
+    regionOf a = case a of
+      Given (Located at _) -> [at]
+      Chosen _ (Located at _) -> [at]
+      Ranked _ -> []
 
 -- | Calls a function of the program. The last argument is the function: the local names that were
 -- in scope at its definition, its parameters, and its body. The body sees these names and the

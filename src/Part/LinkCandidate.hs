@@ -80,7 +80,7 @@ shapes j = (value (before j), value (after j))
 meet :: Neighbours -> [Point] -> Maybe Point -> Either ContourFault Joint
 meet j own near = case shapes j of
   (AtPoint p, AtPoint q)
-    | Vec.isNear p q -> Left (NotLinked j SameCurve)
+    | Vec.isNear p q -> Left (NotLinked j (SameCurve False))
     | otherwise -> Right (straight p q)
   (AtPoint p, b) -> pointOn j p b
   (a, AtPoint q) -> pointOn j q a
@@ -98,7 +98,7 @@ meet j own near = case shapes j of
   where
     common meeting = case meeting of
       Apart gap -> Left (NotLinked j (NoMeeting gap))
-      Same -> Left (NotLinked j SameCurve)
+      Same -> Left (NotLinked j (SameCurve False))
       Touching p -> Right (through p)
       CrossingOnce p -> Right (through p)
       Crossing p q -> choose j own near Tolerance.coincident [p, q]
@@ -191,7 +191,7 @@ smoothEnds j (p, u) (q, v)
   | Vec.distance p q > Tolerance.smoothGap =
     Left (NotLinked j (NotSmooth (Vec.distance p q)))
   | abs angle > pi / 2 = Left (NotLinked j TurnsBack)
-  | abs angle > allowed = Left (NotLinked j (Kinked (Rad (abs angle))))
+  | abs angle > allowed = Left (NotLinked j (Kinked (Rad (abs angle)) False))
   | otherwise = Right (Joint p q Nothing)
   where
     Rad angle = Vec.signedAngle u v
@@ -224,7 +224,7 @@ smoothLineCircle j l sense (Circle c (Mm r))
 -- sense must touch with one inside the other, circles with different senses from outside.
 smoothCircles :: Neighbours -> (Sense, Circle) -> (Sense, Circle) -> Either ContourFault Joint
 smoothCircles j (s, Circle c (Mm r)) (t, Circle d (Mm q))
-  | distance <= tolerance = Left (NotLinked j SameCurve)
+  | distance <= tolerance = Left (NotLinked j (SameCurve False))
   | s == t && outerGap <= tolerance || s /= t && innerGap <= tolerance =
     Left (NotLinked j TurnsBack)
   | s == t = touching j innerGap (towards (if r >= q then r else -r))
@@ -266,7 +266,10 @@ tangent j = case shapes j of
         Left
           ( NotLinked
               j
-              (if Intersection.circles c d == Same then CoincidentTangent else ConcentricTangent)
+              ( if Intersection.circles c d == Same
+                  then CoincidentTangent False
+                  else ConcentricTangent
+              )
           )
       | otherwise = case TangentLine.directed a b of
         Just l -> Right (straight (Carrier.from l) (Carrier.to l))
@@ -280,7 +283,7 @@ fillet j sense r = case shapes j of
   (AtPoint _, _) -> Left (NotLinked j FilletAtPoint)
   (_, AtPoint _) -> Left (NotLinked j FilletAtPoint)
   (a, b) -> case sortOn arcLength (map joint (Fillet.between r sense a b)) of
-    [] -> Left (NotLinked j (NoFillet sense r Nothing))
+    [] -> Left (NotLinked j (NoFillet sense r Nothing Nothing))
     first : rest -> Right (first :| rest)
   where
     joint f =

@@ -22,7 +22,7 @@ import Data.List.NonEmpty (NonEmpty (..))
 import Data.List.NonEmpty qualified as NonEmpty
 import Data.Map.Strict (Map)
 import Data.Map.Strict qualified as Map
-import Data.Maybe (catMaybes, fromMaybe, listToMaybe, mapMaybe)
+import Data.Maybe (catMaybes, fromMaybe, isNothing, listToMaybe, mapMaybe)
 import Data.Ord (comparing)
 import Geometry.Carrier (Circle (Circle), Line (Line))
 import Geometry.Carrier qualified as Carrier
@@ -37,48 +37,35 @@ import Geometry.SelfIntersection qualified as SelfIntersection
 import Geometry.Tolerance qualified as Tolerance
 import Geometry.Vec (Point)
 import Geometry.Vec qualified as Vec
-import Part.ContourError (ContourFault (..), LinkFault (..), Neighbours (Neighbours))
+import Part.ContourError
+  ( ContourEnd (ContourEnd),
+    ContourFault (..),
+    LinkFault (..),
+    Neighbours (Neighbours),
+  )
 import Part.ContourError qualified as ContourError
-import Part.Curve (PartCurve)
+import Part.FilletSearch qualified as FilletSearch
 import Part.Link (Link (..))
 import Part.LinkCandidate (Joint (..))
 import Part.LinkCandidate qualified as LinkCandidate
-import Part.Part (Element (Element, continues, origin, segment), Finish, plainFinish)
+import Part.LinkElement (LinkedElement (..), edgesOf)
+import Part.Part (Element (Element, continues, origin, segment), plainFinish)
 import Part.Tolerance qualified as Tolerance
 
--- | An element of a contour, and the link to the element after it.
-data LinkedElement = LinkedElement
-  { elementRegion :: Region,
-    carrier :: ElementCarrier,
-    -- | the start and the end of the element as the program defines it, before any link shortens
-    -- it. A circle has neither
-    ownStart :: Maybe Point,
-    ownEnd :: Maybe Point,
-    finish :: Finish,
-    -- | the bevels of the element's surface: pairs of a station in mm and an angle in radians, with
-    -- rising stations. A single pair holds for the whole element
-    bevel :: [(Double, Double)],
-    -- | the exact curve, if the element is a curve
-    sourceCurve :: Maybe PartCurve,
-    -- | the region of the link, and the link; absent if the program writes no link. The element
-    -- then meets the next one, unless it is the last of an open contour
-    link :: Maybe (Region, Link)
-  }
-  deriving stock (Eq, Show)
-
--- | Computes the segments of a contour. @region@ is that of the contour's name. If links cannot
+-- | Computes the segments of a contour. @region@ is that of the contour's name, and @ends@ has the
+-- region of the word @open@ or @closed@. If links cannot
 -- join their neighbours, it fails with the faults of all these links. Of other faults it reports
 -- only the first.
 solve ::
   Region ->
-  Ends ->
+  Located Ends ->
   NonEmpty LinkedElement ->
   Either (NonEmpty ContourFault) (NonEmpty Element)
 solve region ends linked = case attempt region ends linked of
   Right elements -> Right elements
   Left found ->
-    let faults = fromMaybe (found :| []) (NonEmpty.nonEmpty (unlinked ends linked))
-     in Left (fmap (withLargest region ends linked) faults)
+    let faults = fromMaybe (found :| []) (NonEmpty.nonEmpty (unlinked (value ends) linked))
+     in Left (fmap (withLargest region ends linked) (withoutRepetition (value ends) linked faults))
 
 -- | The faults of the links that cannot join their neighbours. A repetition can make several links
 -- with one region, or between elements of the same two regions. Of the faults of such links, only
@@ -92,72 +79,75 @@ unlinked ends linked = case linked of
      in map snd (nubOrdOn pairOf (nubOrdOn fst faults))
   where
     pairOf (at, f) = case f of
-      NotLinked (Neighbours _ (Located a _) (Located b _)) _ -> (min a b, max a b)
+      NotLinked (Neighbours _ (Located a _) (Located b _) _) _ -> (min a b, max a b)
       _ -> (at, at)
 
--- | If the fault may be caused by a fillet that is too large, adds the largest radius that fits.
-withLargest :: Region -> Ends -> NonEmpty LinkedElement -> ContourFault -> ContourFault
-withLargest region ends linked fault = case fault of
-  NotLinked j (NoFillet sense r _) ->
-    NotLinked j (NoFillet sense r (largestFillet region ends linked [ContourError.link j]))
-  Overrun at shape overlap links _ ->
-    Overrun at shape overlap links (largestFillet region ends linked links)
-  _ -> fault
-
--- | The largest fillet radius, below the one that the program gives, with which the contour has no
--- fault. A report gives it as a hint. @links@ are the regions of the fillets to change. Each of
--- them is first changed alone. If no such change helps, it is changed together with all fillets of
--- the same radius. 'Nothing' if no radius fits.
-largestFillet :: Region -> Ends -> NonEmpty LinkedElement -> [Region] -> Maybe Mm
-largestFillet region ends linked links =
-  listToMaybe (mapMaybe (uncurry bisected) (map alone given <> map together given))
+-- | Joins the faults of links that have one cause: tangents beside elements that are no circles,
+-- and fillets beside points. The joined fault takes the place of the first one.
+withoutRepetition ::
+  Ends -> NonEmpty LinkedElement -> NonEmpty ContourFault -> NonEmpty ContourFault
+withoutRepetition ends linked faults =
+  fromMaybe faults (NonEmpty.nonEmpty (go (NonEmpty.toList faults)))
   where
-    given =
-      [ (at, r)
-        | LinkedElement {link = Just (at, Fillet _ r)} <- NonEmpty.toList linked,
-          at `elem` links
-      ]
-    alone (at, r) = (r, \at' _ -> at' == at)
-    together (_, r) = (r, \_ r' -> r' == r)
-    bisected (Mm r) chosen =
-      listToMaybe
-        [ bisect chosen low (2 * low)
-          | low <- takeWhile (> smallest) (drop 1 (iterate (/ 2) r)),
-            fits chosen low
-        ]
-    Mm smallest = Tolerance.smallestFillet
-    bisect chosen low high
-      | high - low <= low * 1e-9 = Mm low
-      | fits chosen middle = bisect chosen middle high
-      | otherwise = bisect chosen low middle
-      where
-        middle = (low + high) / 2
-    fits chosen r = case attempt region ends (fmap (with chosen r) linked) of
-      Right _ -> True
-      Left _ -> False
-    with chosen r w = case link w of
-      Just (at, Fillet sense r') | chosen at r' -> w {link = Just (at, Fillet sense (Mm r))}
-      _ -> w
+    go fs = case fs of
+      NotLinked j cause : more
+        | cause == TangentNeedsCircles || cause == FilletAtPoint ->
+          let same f = case f of
+                NotLinked k cause' | cause' == cause -> Just k
+                _ -> Nothing
+           in NotLinkedOften (j :| mapMaybe same more) cause (edgesOf ends linked) :
+              go (filter (isNothing . same) more)
+      f : more -> f : go more
+      [] -> []
+
+-- | If the fault may be caused by a fillet that is too large, adds the largest radius that fits.
+withLargest :: Region -> Located Ends -> NonEmpty LinkedElement -> ContourFault -> ContourFault
+withLargest region ends linked fault = case fault of
+  NotLinked j (NoFillet sense r _ _) ->
+    NotLinked
+      j
+      ( NoFillet
+          sense
+          r
+          (FilletSearch.largest fits linked [ContourError.link j])
+          (FilletSearch.turned fits linked (== ContourError.link j))
+      )
+  NotLinked j (Kinked angle _) -> NotLinked j (Kinked angle (fits (withoutLink j)))
+  NotLinked j (SameCurve _) -> NotLinked j (SameCurve (leavingOutMends j))
+  NotLinked j (CoincidentTangent _) -> NotLinked j (CoincidentTangent (leavingOutMends j))
+  Overrun at shape overlap links _ ->
+    Overrun at shape overlap links (FilletSearch.largest fits linked links)
+  CrossesItself name a b p hasFillets _ ->
+    CrossesItself name a b p hasFillets (FilletSearch.turned fits linked (const True))
+  _ -> fault
+  where
+    fits changed = either (const False) (const True) (attempt region ends changed)
+    withoutLink j = fmap (unlinkedFrom (ContourError.link j)) linked
+    unlinkedFrom at w = if fmap fst (link w) == Just at then w {link = Nothing} else w
+    leavingOutMends j =
+      maybe False fits $
+        NonEmpty.nonEmpty
+          (NonEmpty.filter ((/= snd (ContourError.items j)) . itemRegion) linked)
 
 -- | Computes the segments of a contour, or its first fault.
 attempt ::
   Region ->
-  Ends ->
+  Located Ends ->
   NonEmpty LinkedElement ->
   Either ContourFault (NonEmpty Element)
-attempt region ends linked = do
+attempt region (Located closure ends) linked = do
   chosen <- case (ends, linked) of
-    (Closed, only :| []) -> singleElement only
+    (Closed, only :| []) -> singleElement closure only
     (Closed, _) -> closed linked
     (Open, LinkedElement {elementRegion, carrier = OnCurve c} :| [])
-      | MeasuredPolyarc.isClosed c -> Left (ClosedCurve elementRegion)
-    (Open, _) -> open linked
+      | MeasuredPolyarc.isClosed c -> Left (ClosedCurve elementRegion closure)
+    (Open, _) -> open closure linked
   elements <- maybe (Left (NoLength region)) Right (NonEmpty.nonEmpty (filter isLong chosen))
   let contour = Polyarc.closeGaps segment (\s e -> e {segment = s}) ends elements
       originOf i = origin (contour NonEmpty.!! i)
   case SelfIntersection.firstSelfIntersectionBy segment ends contour of
     Just (i, j, p) ->
-      Left (CrossesItself region (originOf i) (originOf j) p (any hasFillet linked))
+      Left (CrossesItself region (originOf i) (originOf j) p (any hasFillet linked) Nothing)
     Nothing -> Right contour
   where
     isLong e = Segment.length (segment e) > Tolerance.coincident
@@ -166,9 +156,9 @@ attempt region ends linked = do
       _ -> False
 
 -- | The segments of a closed contour that consists of one element. A circle begins at its rightmost
--- point, a closed curve at its own start.
-singleElement :: LinkedElement -> Either ContourFault [Element]
-singleElement w@LinkedElement {elementRegion, carrier, link} = case (carrier, link) of
+-- point, a closed curve at its own start. @closure@ is the region of the word @closed@.
+singleElement :: Region -> LinkedElement -> Either ContourFault [Element]
+singleElement closure w@LinkedElement {elementRegion, carrier, link} = case (carrier, link) of
   (OnCircle _ _, Just (at, _)) -> Left (LinkOfLoneCircle at)
   (OnCircle sense circle@(Circle c (Mm r)), Nothing) ->
     Right (marked w (Mm 0) [Segment.fullCircle sense circle (Vec.shift (Vec.vec r 0) c)])
@@ -176,9 +166,11 @@ singleElement w@LinkedElement {elementRegion, carrier, link} = case (carrier, li
     | MeasuredPolyarc.isClosed c ->
       Right (closedSmoothly (marked w (Mm 0) (NonEmpty.toList (MeasuredPolyarc.segments c))))
   (OnCurve c, Just (at, _)) | MeasuredPolyarc.isClosed c -> Left (LinkOfLoneCircle at)
-  (OnCurve _, _) -> Left (LoneElement elementRegion carrier)
-  (OnLine _, _) -> Left (LoneElement elementRegion carrier)
-  (AtPoint _, _) -> Left (LoneElement elementRegion carrier)
+  (OnCurve _, _) -> Left (LoneElement elementRegion carrier asOpen)
+  (OnLine _, _) -> Left (LoneElement elementRegion carrier asOpen)
+  (AtPoint _, _) -> Left (LoneElement elementRegion carrier asOpen)
+  where
+    asOpen = if isNothing link then Just closure else Nothing
 
 -- | Marks the first segment of a closed curve as a continuation of the last one. Leaves it unmarked
 -- if there is a corner between them.
@@ -200,13 +192,13 @@ isSmooth a b =
     v = Segment.startDirection b
 
 -- | The segments of an open contour, from the start of its first element to the end of its last
--- one.
-open :: NonEmpty LinkedElement -> Either ContourFault [Element]
-open linked = do
-  begin <- ownPoint ownStart first
-  end <- ownPoint ownEnd final
+-- one. @closure@ is the region of the word @open@.
+open :: Region -> NonEmpty LinkedElement -> Either ContourFault [Element]
+open closure linked = do
+  begin <- maybe (Left (withoutEnd first)) Right (ownStart first)
+  end <- maybe (Left (withoutEnd final)) Right (ownEnd final)
   case link final of
-    Just (at, _) -> Left (LinkAtEnd at (elementRegion first))
+    Just (at, _) -> Left (LinkAtEnd at (elementRegion first) closure)
     Nothing -> Right ()
   case withoutChoice list begin Nothing (LinkCandidate.through end) of
     Just elements -> Right elements
@@ -218,7 +210,15 @@ open linked = do
     list = NonEmpty.toList linked
     first = NonEmpty.head linked
     final = NonEmpty.last linked
-    ownPoint side w = maybe (Left (NoEnd (elementRegion w) (carrier w))) Right (side w)
+    isLone = null (NonEmpty.tail linked)
+    withoutEnd w =
+      NoEnd
+        (elementRegion w)
+        (carrier w)
+        ( [ContourEnd (itemRegion first) True (carrier first) | isNothing (ownStart first)]
+            <> [ContourEnd (itemRegion final) False (carrier final) | isNothing (ownEnd final)]
+        )
+        (if isLone then Just closure else Nothing)
 
 -- | The segments of a closed contour. It begins at the point where the link after the last element
 -- reaches the first element.
@@ -271,6 +271,7 @@ neighboursOf a b =
     (linkRegion a b)
     (Located (elementRegion a) (carrier a))
     (Located (elementRegion b) (carrier b))
+    (itemRegion a, itemRegion b)
 
 -- | The region of the link between two neighbours. Without a link it is the region of element @b@.
 linkRegion :: LinkedElement -> LinkedElement -> Region

@@ -17,7 +17,8 @@ where
 
 import Base.Crash (bug)
 import Base.Quantity (Feed, Mm (..), Rad (..), over, times)
-import Base.Region (Located (..), Region)
+import Base.Region (Located (..), Region (..))
+import Base.Region qualified as Region
 import Checked.Syntax (Expr)
 import Checked.Syntax qualified as Checked
 import Control.Applicative ((<|>))
@@ -48,7 +49,7 @@ import Part.Value (Value (..))
 data Context = Context
   { environment :: Environment,
     cutter :: Maybe Cutter,
-    chordError :: Maybe Accuracy,
+    chordError :: Maybe (Located Accuracy),
     modalFeed :: Maybe (Located Feed),
     clearanceHeight :: Maybe Mm,
     modalSense :: Sense
@@ -72,7 +73,7 @@ milling context work at e side settings = do
     Milled -> checkCutter context at MillStatement
     Turned -> checkCutter context at TurnStatement
   passes <- passesOf context at (contourOf v) settings
-  pure (assembled context work side settings passes)
+  pure (assembled context work at side settings passes)
 
 -- | The evaluated contour and settings of a milling or turning statement.
 data Passes = Passes
@@ -96,7 +97,7 @@ passesOf context at contour settings = do
   retractStops <- stopsOf context (Checked.retract settings)
   path <- startedNear env contour (Checked.startNear settings)
   heights <- maybe (pure []) (levelsOf env) (Checked.depth settings)
-  checkSteps context (maybe at (region . fst) (Checked.depth settings)) heights
+  checkSteps context at (Checked.depth settings) heights
   plungeFeed <- traverse (feedOf env) (Checked.plunge settings)
   leadIn <- traverse lead (Checked.leadIn settings)
   leadOut <- traverse lead (Checked.leadOut settings)
@@ -119,12 +120,14 @@ passesOf context at contour settings = do
     env = environment context
     lead (form, x) = (form,) <$> lengthOf env Parameter.Lead x
 
--- | Makes the milling or turning operation from the evaluated contour and settings @passes@. The
--- result is 'Nothing' if a setting that the operation needs has no value.
-assembled :: Context -> Work -> Located Side -> Checked.Settings -> Passes -> Maybe Milling
-assembled context work side settings passes = do
+-- | Makes the milling or turning operation from the evaluated contour and settings @passes@. @at@
+-- is the region of the statement. The result is 'Nothing' if a setting that the operation needs has
+-- no value.
+assembled ::
+  Context -> Work -> Region -> Located Side -> Checked.Settings -> Passes -> Maybe Milling
+assembled context work at side settings passes = do
   tool <- cutter context
-  tolerance <- chordError context
+  Located accuracy tolerance <- chordError context
   feed <- modalFeed context
   approach <- approachStops passes
   retract <- retractStops passes
@@ -138,6 +141,7 @@ assembled context work side settings passes = do
         radius = cutterRadius tool,
         gear = case kind tool of BladeCutter wheel -> Just wheel; _ -> Nothing,
         tolerance,
+        places = MillingPlaces {statement = at, toolSize = cutterSize tool, accuracy},
         feed,
         approach,
         retract,
@@ -151,7 +155,7 @@ assembled context work side settings passes = do
         sense = Checked.sense settings,
         spindleSense = modalSense context,
         controlCompensation = case Checked.compensation settings of
-          Just (Located at Checked.ByController) -> Just at
+          Just (Located asked Checked.ByController) -> Just asked
           Just (Located _ Checked.ByCompiler) -> Nothing
           Nothing -> Nothing,
         rest = maybe Refused (const Allowed) (Checked.restAllowed settings)
@@ -165,15 +169,15 @@ contourOf v = case v of
 -- | The contour that the cutter follows. If the statement gives a point @near@, the start of the
 -- contour is moved to the contour's nearest point to @near@. Fails if @near@ is given and the
 -- contour is open.
-startedNear :: Environment -> Contour -> Maybe Expr -> Eval Contour
+startedNear :: Environment -> Contour -> Maybe (Located Expr) -> Eval Contour
 startedNear env contour near = case near of
   Nothing -> pure contour
-  Just e -> do
+  Just (Located setting e) -> do
     p <- Expression.point <$> Expression.evaluate env e
     if ends contour == Open
       then
         let name = value (contourName contour)
-         in Evaluation.mistake (InContour (OpenBegins (region e) name))
+         in Evaluation.mistake (InContour (OpenBegins setting name))
       else pure (ContourElement.startingNear p contour)
 
 -- | The heights of the passes from the highest to the lowest, in mm and negative. The pair of
@@ -192,12 +196,15 @@ levelsOf env (depth, most) = do
   pure [times (negate (fromIntegral k / fromIntegral count)) d | k <- [1 .. count]]
 
 -- | Fails if there are passes at several @heights@ and the cutter is widest at its tip. @at@ is the
--- region for the report.
-checkSteps :: Context -> Region -> [Mm] -> Eval ()
-checkSteps context at heights = case cutter context of
+-- region of the statement, and @depth@ the depth that the statement gives.
+checkSteps :: Context -> Region -> Maybe (Expr, Maybe Expr) -> [Mm] -> Eval ()
+checkSteps context at depth heights = case cutter context of
   Just c
-    | kind c == DovetailCutter && length heights > 1 -> Evaluation.mistake (StepsUndercut at)
+    | kind c == DovetailCutter && length heights > 1 ->
+      Evaluation.mistake (StepsUndercut (maybe at (region . fst) depth) (stepOf =<< depth))
   _ -> pure ()
+  where
+    stepOf (d, most) = (\m -> Region (end (region d)) (end (region m))) <$> most
 
 -- Pockets
 
@@ -224,7 +231,7 @@ pocketing context at e step settings = do
       pocket w = Pocketing {wall = w, islands = contours', stepover}
   case PocketCheck.misfits outline' islands <> tooWide of
     [] -> pure (pocket <$> wall)
-    found -> Evaluation.mistakes [Error (InPocket m) [] | m <- found]
+    found -> Evaluation.mistakes [Error (InPocket m) [] [] | m <- found]
   where
     env = environment context
     named i = PocketCheck.Named (region i)
@@ -280,6 +287,7 @@ drilling context at points depth settings = do
         Drilling
           { holes = fmap (Located (region points)) some,
             drillRadius = cutterRadius tool,
+            drillSize = cutterSize tool,
             bottom = times (-1) d,
             travelHeight,
             peckDepth,
@@ -343,18 +351,20 @@ isMill cutterKind = case cutterKind of
 cutterOf :: Environment -> Checked.Cutter -> Eval Cutter
 cutterOf env (Located _ c) = case c of
   Checked.MillCutter e ->
-    Cutter MillingCutter . times 0.5 <$> lengthOf env Parameter.CutterDiameter e
+    sized MillingCutter e . times 0.5 <$> lengthOf env Parameter.CutterDiameter e
   Checked.DrillCutter e ->
-    Cutter DrillingCutter . times 0.5 <$> lengthOf env Parameter.DrillDiameter e
+    sized DrillingCutter e . times 0.5 <$> lengthOf env Parameter.DrillDiameter e
   Checked.ConeCutter e lean h -> cone env e lean h
   Checked.BladeCutter e g -> do
     d <- lengthOf env Parameter.BladeDiameter e
     wheel <- lengthOf env Parameter.WheelDiameter g
-    pure (Cutter (BladeCutter wheel) (times 0.5 d))
+    pure (sized (BladeCutter wheel) e (times 0.5 d))
   Checked.TurningCutter e -> do
     x <- Expression.number <$> Expression.evaluate env e
     when (x < 0) (Evaluation.mistake (Negative (region e) Parameter.NoseRadius x))
-    pure (Cutter TurningCutter (Mm x))
+    pure (sized TurningCutter e (Mm x))
+  where
+    sized kind' e r = Cutter kind' r (Just (region e))
 
 -- | Evaluates a conical cutter from three expressions: the diameter 2R of its tip (@e@), the angle
 -- μ between its flank and its axis (@lean@), and a height H (@h@). The flank touches the part at
@@ -369,15 +379,15 @@ cone env e lean h = do
     (Evaluation.mistake (InCurve (SteepBevel (region lean) Nothing (Rad mu))))
   let a = d / 2 + flank * tan mu
   when (a <= 0) (Evaluation.mistake (NotPositive (region lean) Parameter.RadiusAtHeight a))
-  pure (Cutter (if mu < 0 then DovetailCutter else ConeCutter) (Mm a))
+  pure (Cutter (if mu < 0 then DovetailCutter else ConeCutter) (Mm a) Nothing)
 
 -- | The allowed chord error that a @tolerance@ statement sets.
-accuracyOf :: Environment -> Checked.Accuracy -> Eval Accuracy
+accuracyOf :: Environment -> Checked.Accuracy -> Eval (Located Accuracy)
 accuracyOf env accuracy = case accuracy of
-  Checked.Within e -> OnPath <$> lengthOf env Parameter.Tolerance e
+  Checked.Within e -> Located (region e) . OnPath <$> lengthOf env Parameter.Tolerance e
   Checked.Between a b -> do
     inside <- notNegative env Parameter.Tolerance a
     outside <- notNegative env Parameter.Tolerance b
     if inside <= Mm 0 && outside <= Mm 0
       then Evaluation.mistake (NotPositive (region b) Parameter.OneSidedTolerance 0)
-      else pure (Band inside outside)
+      else pure (Located (Region.span (region a) (region b)) (Band inside outside))

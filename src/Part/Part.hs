@@ -16,6 +16,7 @@ module Part.Part
     SpacePoint (..),
     Operation (..),
     Milling (..),
+    MillingPlaces (..),
     RestPolicy (..),
     Pocketing (..),
     Work (..),
@@ -224,7 +225,20 @@ data Milling = Milling
     -- | the region of the setting that leaves cutter compensation to the control; if it is absent,
     -- the compiler computes the offset
     controlCompensation :: Maybe Region,
-    rest :: RestPolicy
+    rest :: RestPolicy,
+    places :: MillingPlaces
+  }
+  deriving stock (Eq, Show)
+
+-- | Regions of the program that a fix of a milling may change.
+data MillingPlaces = MillingPlaces
+  { -- | the whole statement, which ends with the closing brace of its settings
+    statement :: Region,
+    -- | the diameter of the tool, or the radius of its nose. It is absent for a cone, whose radius
+    -- at the contour depends on more than its diameter
+    toolSize :: Maybe Region,
+    -- | the tolerance
+    accuracy :: Region
   }
   deriving stock (Eq, Show)
 
@@ -275,6 +289,8 @@ data Drilling = Drilling
   { -- | the centres of the holes, in the order of drilling
     holes :: NonEmpty (Located Point),
     drillRadius :: Mm,
+    -- | the region of the diameter of the drill
+    drillSize :: Maybe Region,
     -- | the height of the bottom of the holes, which is negative
     bottom :: Mm,
     -- | the height at which the drill moves from hole to hole
@@ -299,7 +315,12 @@ data Command
   deriving stock (Eq, Show)
 
 -- | A tool: its kind, and the radius at which it touches the part.
-data Cutter = Cutter {kind :: CutterKind, cutterRadius :: Mm}
+data Cutter = Cutter
+  { kind :: CutterKind,
+    cutterRadius :: Mm,
+    -- | the region of the diameter, or of the radius of the nose; absent for a cone
+    cutterSize :: Maybe Region
+  }
   deriving stock (Eq, Show)
 
 -- | The kind of a tool.

@@ -12,6 +12,7 @@ import Base.Region (Region)
 import Geometry.Vec (Point)
 import Geometry.Vec qualified as Vec
 import Part.ErrorText (at)
+import Report.Fix qualified as Fix
 import Report.Report (Label (..), Report (..), quote)
 
 -- | A fault of a pocket. The first field of every constructor is the region of the wrong expression
@@ -70,12 +71,23 @@ toReport misfit = case misfit of
         hints = ["Draw islands that grow together as one contour."]
       }
   StepTooWide region stepover diameter ->
-    (at region "E0359" ("passes " <> Decimal.mm stepover <> " apart leave material between them"))
+    ( at
+        region
+        "E0359"
+        ("passes with a step of " <> Decimal.mm stepover <> " leave material between them")
+    )
       { message =
           [ "The cutter has a diameter of "
               <> Decimal.mm diameter
               <> "; a pass clears no more than that."
           ],
-        hints =
-          ["A usual step is half of the diameter: step " <> Decimal.mm (times 0.5 diameter) <> "."]
+        fixes =
+          [ Fix.proposed
+              ( Fix.exchange
+                  ("Write half of the diameter, a usual step: " <> half <> ".")
+                  region
+                  half
+              )
+            | let half = Decimal.mm (times 0.5 diameter)
+          ]
       }

@@ -12,6 +12,7 @@ import Base.Region (Position (..), Region)
 import Base.Region qualified as Region
 import Data.Text (Text)
 import Data.Text qualified as Text
+import Report.Fix qualified as Fix
 import Report.Report (Report (..), ReportPlace (..), report)
 import Report.Report qualified as Report
 
@@ -19,8 +20,8 @@ import Report.Report qualified as Report
 -- the program. It is 'Nothing' if the command line names the machine.
 data Error
   = -- | neither the program nor the command line names a machine: the names of the built-in
-    -- machines
-    NoMachine [Text]
+    -- machines, and the offset at which the program may name one
+    NoMachine [Text] (Maybe Int)
   | -- | no machine has this name: the region, this name, and the names of the built-in machines
     UnknownMachine (Maybe Region) Text [Text]
   | -- | a machine description that cannot be read: the region, the name of its file, and the reason
@@ -35,22 +36,42 @@ data Error
 -- | The report of an error.
 toReport :: Error -> Report
 toReport err = case err of
-  NoMachine known ->
-    (wrong "E0804" InFile "no machine is chosen")
-      { hints =
-          [ "Say in the program: machine NAME, or on the command line: -t NAME. Machines: "
+  NoMachine known offset ->
+    (wrong "E0804" InFile "the program names no machine")
+      { fixes =
+          [ Fix.proposed (Fix.insertion ("Write machine " <> name <> ".") at ("\nmachine " <> name))
+            | Just at <- [offset],
+              name <- known
+          ],
+        hints =
+          [ "Write in the program: machine NAME, or on the command line: -t NAME. The machines are "
               <> Text.intercalate ", " known
               <> "."
+            | null offset
           ]
+            <> ["Or name it on the command line: -t NAME." | not (null offset)]
       }
   UnknownMachine place name known ->
     (wrong "E0805" (maybe InFile InSource place) ("there is no machine named ‘" <> name <> "’"))
       { message = ["The machines are: " <> Text.intercalate ", " known <> "."],
+        fixes =
+          [ if isFile
+              then
+                Fix.exchange
+                  "Write the name of a description in quotation marks."
+                  region
+                  ("\"" <> name <> "\"")
+              else Fix.exchange ("Write " <> n <> ".") region n
+            | Just region <- [place],
+              n <- take 1 (if isFile then [name] else similar)
+          ],
         hints =
-          if ".machine" `Text.isSuffixOf` name
-            then ["A description stands in quotation marks: machine \"" <> name <> "\"."]
-            else ["Did you mean ‘" <> n <> "’?" | n <- take 1 (Name.nearest name known)]
+          ["Did you mean ‘" <> n <> "’?" | null place, not isFile, n <- take 1 similar]
+            <> ["Write one of them." | null similar, not isFile]
       }
+    where
+      isFile = ".machine" `Text.isSuffixOf` name
+      similar = Name.lookAlike name known <> Name.nearest name known
   DescriptionMissing place file why ->
     ( wrong
         "E0806"

@@ -38,6 +38,8 @@ data LoadedProgram = LoadedProgram
     -- | the syntax tree of the program, in which each import is replaced by the imported
     -- definitions, and each name of a table file by the lines of the table
     surface :: Result Report Report Surface.Program,
+    -- | true for an input sheet
+    isSheet :: Bool,
     -- | the regions of the names of imports and of table files, with the paths of these files
     imports :: [(Region, Text)],
     -- | the machine descriptions that the program names
@@ -62,6 +64,7 @@ load reader path text
       LoadedProgram
         { source = Surface.source loaded,
           surface = mapErrors Surface.toReport Surface.toReport (Surface.surface loaded),
+          isSheet = False,
           imports = Surface.imports loaded,
           descriptions,
           files =
@@ -75,6 +78,7 @@ fromInputSheet path text =
   LoadedProgram
     { source = Region.fromText (Text.pack path) text,
       surface = Sheet.program <$> mapErrors id Sheet.toReport (Sheet.read text),
+      isSheet = True,
       imports = [],
       descriptions = [],
       files = []

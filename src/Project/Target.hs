@@ -10,6 +10,7 @@ module Project.Target
 where
 
 import Base.Region (Located (..), Region)
+import Base.Region qualified as Region
 import Base.Result (Result (..))
 import Base.Result qualified as Result
 import Data.Text (Text)
@@ -33,7 +34,7 @@ targets :: Descriptions -> [Text] -> Part -> Toolpath -> Result w Report [Machin
 targets descriptions names part path =
   Result.mapErrors id Project.toReport $
     map (setUpFor path) <$> case (names, Part.machine part) of
-      ([], Nothing) -> Result.failed (NoMachine builtInNames)
+      ([], Nothing) -> Result.failed (NoMachine builtInNames (machineOffset part))
       ([], Just reference) -> pure <$> ownMachine descriptions reference
       (some, _) -> traverse (Result.fromEither . machineNamed descriptions) some
 
@@ -43,6 +44,10 @@ ownMachines :: Descriptions -> Part -> Toolpath -> Result w Report [Machine]
 ownMachines descriptions part path = case Part.machine part of
   Nothing -> pure []
   Just _ -> targets descriptions [] part path
+
+-- | The offset at which a program may name a machine: before the start of the cutter.
+machineOffset :: Part -> Maybe Int
+machineOffset part = (\(Located at _) -> Region.start at) <$> Part.start part
 
 -- | Prepares a machine description for a toolpath: for turning, some machines reverse axes.
 setUpFor :: Toolpath -> Machine -> Machine

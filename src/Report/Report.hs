@@ -10,6 +10,7 @@ module Report.Report
     ReportPlace (..),
     Label (..),
     report,
+    withControlStop,
     remedies,
     force,
     quote,
@@ -65,6 +66,8 @@ data Report = Report
     others :: [Label],
     -- | the reason, as whole sentences
     message :: [Text],
+    -- | number of the control stop at which the Minsk-22 system halted for the same mistake
+    controlStop :: Maybe Text,
     -- | remedies in words; lazy, because some need a slow comparison with similar names, which is
     -- left out for a report that is not shown
     hints :: ~[Text],
@@ -85,9 +88,17 @@ report severity code place title =
       label = "",
       others = [],
       message = [],
+      controlStop = Nothing,
       hints = [],
       fixes = []
     }
+
+-- | The report of a mistake on an input sheet: its message also names the control stop.
+withControlStop :: Report -> Report
+withControlStop r = case controlStop r of
+  Just stop ->
+    r {message = message r <> ["The Minsk-22 system stopped here with " <> stop <> "."]}
+  Nothing -> r
 
 -- | Remedies as sentences: the titles of the fixes, and the hints.
 remedies :: Report -> [Text]

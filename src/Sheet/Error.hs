@@ -30,6 +30,8 @@ import Base.Decimal qualified as Decimal
 import Base.Region (Region)
 import Data.Text (Text)
 import Data.Text qualified as Text
+import Report.Fix (Fix)
+import Report.Fix qualified as Fix
 import Report.Report
   ( Label (..),
     Report (..),
@@ -172,7 +174,11 @@ toReport err = case err of
   NotANumber position text ->
     (at position "E0901" (quote text <> " is not a number"))
       { message = [counted position],
-        hints = wordHint text
+        fixes = wordFixes position text,
+        hints =
+          [ "Write numbers alone, like 41, -0.5 or +6, with spaces or line ends between them."
+            | null (wordFixes position text)
+          ]
       }
   GeneralShort position count ->
     ( at
@@ -192,6 +198,7 @@ toReport err = case err of
     let (subject, needed) = generalTexts fault
      in (at position "E0903" (subject <> " cannot be this number"))
           { message = [counted position, needed],
+            fixes = [Fix.exchange "Write 0." (site position) "0" | fault == UnusedWord],
             hints = ["Is a number of the general data left out or doubled before this one?"]
           }
   ApproachShifted position fault ->
@@ -241,7 +248,7 @@ toReport err = case err of
           ]
       }
   AfterTheEnd position ->
-    (at position "E0911" "the program has ended before this number")
+    (at position "E0911" "the program ends before this number")
       { message = [counted position, "The feed 0 ends a program."],
         hints = ["Give the point before it a feed if the program goes on."]
       }
@@ -372,10 +379,28 @@ counted position =
 stop :: Text -> Text
 stop code = "The Minsk-22 system stopped here with " <> code <> "."
 
--- | The hints on how to correct a word that is not a number.
-wordHint :: Text -> [Text]
-wordHint text
-  | Text.any (== ',') text = ["Write the decimal point as a point: 59.3"]
-  | Text.any (`elem` ("−–—" :: String)) text = ["Write the minus sign as -."]
-  | otherwise =
-    ["A sheet holds numbers alone, like 41, -0.5 or +6, with spaces or line ends between them."]
+-- | Fixes of a word that is a number in another notation: with a decimal comma, with a minus or a
+-- letter that only looks right.
+wordFixes :: NumberPosition -> Text -> [Fix]
+wordFixes position text =
+  [ Fix.exchange ("Write " <> number' <> ".") (site position) number'
+    | number' <- [Text.concatMap plain text],
+      number' /= text,
+      not (Text.null number'),
+      Text.all (`elem` ("0123456789.-+" :: String)) number',
+      Text.count "." number' <= 1
+  ]
+  where
+    plain c = case c of
+      ',' -> "."
+      '−' -> "-"
+      '–' -> "-"
+      '—' -> "-"
+      'O' -> "0"
+      'o' -> "0"
+      'О' -> "0"
+      'о' -> "0"
+      'l' -> "1"
+      'З' -> "3"
+      ';' -> ""
+      _ -> Text.singleton c

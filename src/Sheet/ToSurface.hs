@@ -135,7 +135,7 @@ arrayStatements sheet run@Run {ordinal, firstPiece, working, earlier, array} =
     at = region (cipher (NonEmpty.head (pieces array)))
     name = Name ("array_" <> Decimal.whole ordinal)
     links = [Just l | LinkedPiece _ l <- joined array] <> [Nothing]
-    contour = Located at (Contour (Located at name) Surface.Open items)
+    contour = Located at (Contour (Located at name) (Located at Surface.Open) items)
     items = zipWith3 (item (isBlade sheet)) [firstPiece ..] (NonEmpty.toList (pieces array)) links
     feeds =
       [ Located (region working) (Feed (measured MmPerMin working))

@@ -187,7 +187,7 @@ definition = do
 contour :: Parser Statement_
 contour = do
   what <- name
-  closure <- (Closed <$ keyword "closed") <|> (Open <$ keyword "open")
+  closure <- located ((Closed <$ keyword "closed") <|> (Open <$ keyword "open"))
   Contour what closure <$> block (ContourBlock (Name.text (value what))) BrokenItem item
 
 -- | The lines of a table in braces, or the name of a file.

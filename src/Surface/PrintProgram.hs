@@ -105,7 +105,7 @@ statement comments indent (Located _ s) = case s of
   LetFunction (Located _ (Name name)) parameters e ->
     defined ("let " <> name <> "(" <> names parameters <> ")") e
   Param (Located _ (Name name)) e -> defined ("param " <> name) e
-  Contour (Located _ (Name name)) closure items ->
+  Contour (Located _ (Name name)) (Located _ closure) items ->
     braces
       indent
       (Text ("contour " <> name <> " " <> closureName closure))

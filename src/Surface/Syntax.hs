@@ -96,7 +96,7 @@ data Statement_
   | -- | @param d = 25 mm@
     Param (Located Name) Expr
   | -- | @contour outline closed { … }@
-    Contour (Located Name) Closure [Item]
+    Contour (Located Name) (Located Closure) [Item]
   | -- | @table profile { x y … }@ and @table profile from "profile.csv"@
     Table (Located Name) Lines
   | -- | @curve skin = spline(profile)@

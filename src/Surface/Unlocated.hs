@@ -42,7 +42,7 @@ statement s = case s of
   LetValue name e -> LetValue (here name) (expr e)
   LetFunction name parameters e -> LetFunction (here name) (fmap here parameters) (expr e)
   Param name e -> Param (here name) (expr e)
-  Contour name closure items -> Contour (here name) closure (map (unlocated item) items)
+  Contour name closure items -> Contour (here name) (here closure) (map (unlocated item) items)
   Table name (LinesFromFile file) -> Table (here name) (LinesFromFile (here file))
   Table name (WrittenLines ls) -> Table (here name) (WrittenLines (concatMap line ls))
   Curve name e -> Curve (here name) (expr e)

@@ -4,6 +4,7 @@
 module Toolpath.Error
   ( Error (..),
     Intrusion (..),
+    ContourBeginning (..),
     Tool (..),
     Unsupported (..),
     toReport,
@@ -17,17 +18,19 @@ where
 
 import Base.Decimal qualified as Decimal
 import Base.Name (Name (..))
-import Base.Quantity (Mm (..), Rad (..), plus, times)
+import Base.Quantity (Mm (..), Rad (..), minus, plus, times)
 import Base.Region (Located (..), Region)
 import Data.Text (Text)
 import Geometry.Segment (Segment (..))
 import Geometry.Segment qualified as Segment
 import Geometry.Vec (Point)
 import Geometry.Vec qualified as Vec
-import Part.Part (Contour (contourName), Element (..), Side (..))
-import Report.Fix (Fix)
+import Part.Part (Contour (contourName), Element (..), Ends (..), MillingPlaces, Side (..))
 import Report.Fix qualified as Fix
 import Report.Report (Label (..), Report (..))
+import Toolpath.CompensationReport (Unsupported (..))
+import Toolpath.CompensationReport qualified as CompensationReport
+import Toolpath.ErrorFix qualified as ErrorFix
 import Toolpath.Tolerance qualified as Tolerance
 import Toolpath.WarningReport
 
@@ -47,24 +50,28 @@ data Error
     -- radius, the largest radius that fits
     ConcaveRadius Region Tool Element Mm (Maybe Mm)
   | -- | an inner corner: the statement, the cutter, both elements, the corner, the largest radius
-    -- that fits
-    InnerCorner Region Tool Element Element Point (Maybe Mm)
+    -- that fits, and True if the program may write a fillet after the first element
+    InnerCorner Region Tool Element Element Point (Maybe Mm) Bool
   | -- | in its pass along the first element the cutter would cut the second one: the statement, the
     -- cutter, both elements, the position of the centre, the largest radius that fits
     Collision Region Tool Element Element Point (Maybe Mm)
   | -- | a move that cuts into an element: the region that asks for the move, the move, the element,
-    -- the depth of the cut, the kind of intrusion, the position of the centre
-    CutsPart Region Segment Element Mm Intrusion Point
+    -- the depth of the cut, the kind of intrusion, the position of the centre,
+    -- and, for the last move of an approach to a contour, the beginning of this contour
+    CutsPart Region Segment Element Mm Intrusion Point (Maybe ContourBeginning)
   | -- | a hole that cuts into a contour: the region of the hole, its centre, the element, the depth
-    -- of the cut
-    HoleCuts Region Point Element Mm
+    -- of the cut, the radius of the drill, the region of its diameter
+    HoleCuts Region Point Element Mm Mm (Maybe Region)
   | -- | milling one contour cuts into another: the statement, the region of the element along which
     -- the cutter moves, the element that is cut, the depth of the cut, the position of the centre.
     -- In a pocket the second region is that of the statement, too
     MillsAnother Region Region Element Mm Point
+  | -- | milling on a contour that another statement mills on one of its sides: the statement, the
+    -- region of @on@, the element, the depth of the cut, the ends of the contour
+    MillsItself Region Region Element Mm Ends
   | -- | milling without a depth at a height above the part, where the cutter cuts nothing: the
-    -- statement, the height
-    CutsAir Region Mm
+    -- statement, the height, and the last point of the approach if it gives this height
+    CutsAir Region Mm (Maybe (Located Point))
   | -- | a closed contour to be turned: the region of the side, the contour's name, the region of
     -- that name
     TurnsClosed Region Name Region
@@ -76,12 +83,14 @@ data Error
     SenseAgainstSide Region Region
   | -- | a turned profile that goes below the axis of the spindle: the statement, the element
     BelowAxis Region Element
-  | -- | an allowance where the cutter's centre moves on the contour
-    AllowanceOnContour Region
+  | -- | an allowance where the cutter's centre moves on the contour: the statement, the side, the
+    -- ends of the contour
+    AllowanceOnContour Region (Located Side) Ends
   | -- | a blade along a contour on which no element has a bevel
     NoBevel Region
-  | -- | a blade that has no side of the contour, because @on@ is asked for
-    BladeOnContour Region
+  | -- | a blade that has no side of the contour, because @on@ is asked for: the statement, the
+    -- side, the ends of the contour
+    BladeOnContour Region (Located Side) Ends
   | -- | two elements that meet without a corner but with different bevels: the statement, both
     -- elements, their bevels at the joint in radians
     BevelJumps Region Element Element Double Double
@@ -126,6 +135,15 @@ data Error
     TooManyLoops Region Int
   deriving stock (Eq, Show)
 
+-- | The beginning of a contour to which an approach leads.
+data ContourBeginning = ContourBeginning
+  { -- | the point of the contour at which the cutter would begin
+    beginsAt :: Point,
+    -- | the statement, if the contour may begin elsewhere
+    mayMove :: Maybe MillingPlaces
+  }
+  deriving stock (Eq, Show)
+
 -- | The kinds of intrusion: cuts of a move into a contour, or into the allowance on a contour.
 data Intrusion
   = -- | the cutter cuts into the part, and its centre stays on one side of the contour
@@ -136,43 +154,18 @@ data Intrusion
     CutsAllowance
   deriving stock (Eq, Show)
 
--- | Requests that the input of a control with cutter compensation cannot express.
-data Unsupported
-  = -- | the cutter's centre moves on the contour
-    OnContour
-  | -- | a blade swivels
-    Swivelling
-  | -- | sharp outer corners instead of arcs
-    SharpCorners
-  | -- | an allowance
-    LeavingMaterial
-  | -- | rest material: parts of the contour that the cutter does not reach
-    Unreached
-  deriving stock (Eq, Show)
-
--- | Fixes that put another side in place of the one in a region.
-sideFixes :: Region -> [Fix]
-sideFixes region =
-  [ Fix.proposed (Fix.exchange ("Write " <> word <> ", " <> meaning <> ".") region word)
-    | (word, meaning) <-
-        [ ("left", "left of the direction of travel"),
-          ("right", "right of the direction of travel"),
-          ("on", "with the centre of the cutter on the contour")
-        ]
-  ]
-
 -- | The report of an error.
 toReport :: Error -> Report
 toReport err = case err of
   SideOfOpen region side (Name name) contour ->
     (at region "E0401" ("the open contour ‘" <> name <> "’ has no " <> sideWord side))
       { others = [Label contour "this contour is open"],
-        fixes = sideFixes region
+        fixes = ErrorFix.sideFixes region [LeftSide, RightSide, On]
       }
   SideOfFace region side (Name name) contour ->
     (at region "E0401" ("the profile ‘" <> name <> "’ has no " <> sideWord side))
       { others = [Label contour "this profile begins and ends at the same x"],
-        fixes = sideFixes region
+        fixes = ErrorFix.sideFixes region [LeftSide, RightSide, On]
       }
   ConcaveRadius region tool element old largest ->
     ( at
@@ -185,9 +178,14 @@ toReport err = case err of
     )
       { label = shape element,
         others = [Label region (workVerb tool <> " here") | region /= origin element],
-        hints = [largestFit tool largest]
+        fixes =
+          ErrorFix.sizeFixes tool largest
+            <> [ ErrorFix.restFix (places tool)
+                 | minus (plus (radius tool) (leaves tool)) old > Mm 0.001
+               ],
+        hints = [largestFit tool largest | null (ErrorFix.sizeFixes tool largest)]
       }
-  InnerCorner region tool first second p largest ->
+  InnerCorner region tool first second p largest mayRound ->
     ( at
         (origin first)
         "E0403"
@@ -202,13 +200,15 @@ toReport err = case err of
         others =
           secondLabel first second
             <> [Label region (workVerb tool <> " here with " <> cutter tool)],
-        message = ["The corner is at " <> Vec.toText 3 p <> "."],
+        message = ["The corner is at " <> Vec.toText 3 p <> "."] <> narrowText tool first second,
+        fixes =
+          (if mayRound then ErrorFix.filletFixes tool first second else [])
+            <> ErrorFix.sizeFixes tool largest
+            <> [ErrorFix.restFix (places tool)],
         hints =
-          ( "Round the corner with a fillet of at least "
-              <> Decimal.mm (plus (radius tool) (leaves tool))
-              <> "."
-          ) :
-            [largestFit tool largest | any (>= Tolerance.smallestCutter) largest]
+          [ "Or write the edges as lines, line(p, q), and round the corner: fillet and a radius."
+            | not mayRound
+          ]
       }
   Collision region tool first second p largest ->
     ( at
@@ -229,9 +229,10 @@ toReport err = case err of
               <> shape second
               <> "."
           ],
-        hints = [largestFit tool largest]
+        fixes = ErrorFix.sizeFixes tool largest <> [ErrorFix.restFix (places tool)],
+        hints = [largestFit tool largest | null (ErrorFix.sizeFixes tool largest)]
       }
-  CutsPart region move element depth intrusion p ->
+  CutsPart region move element depth intrusion p beginning ->
     (at region "E0405" ("this move " <> intruding intrusion depth))
       { label = "the move to here",
         others = [Label (origin element) (shape element) | origin element /= region],
@@ -246,24 +247,49 @@ toReport err = case err of
                   <> "; the trouble is worst with the cutter's centre at "
                   <> Vec.toText 3 p
                   <> "."
+          ]
+            <> [ "The contour begins at " <> Vec.toText 3 (beginsAt b) <> "."
+                 | Just b <- [beginning]
+               ],
+        fixes =
+          [ ErrorFix.startFix milling (Segment.start move)
+            | Just ContourBeginning {mayMove = Just milling} <- [beginning]
           ],
         hints =
           [ "Choose points and leads whose ways stay clear of the part, or go over it: a third \
             \coordinate is a height."
           ]
       }
-  HoleCuts region p element deep ->
+  HoleCuts region p element deep drill size ->
     ( at
         region
         "E0413"
         ("the hole at " <> Vec.toText 3 p <> " cuts into a contour by " <> Decimal.mm deep)
     )
       { others = [Label (origin element) ("it cuts " <> shape element) | origin element /= region],
-        message = ["Of several such holes this is the worst."],
+        message =
+          [ "The drill has a diameter of " <> Decimal.mm (times 2 drill) <> ".",
+            "If several holes of this statement cut into a contour, this one does most."
+          ],
+        fixes = ErrorFix.drillFixes size (minus drill deep),
         hints =
-          [ "Check the place of the hole, the diameter of the drill, and that the tool was changed \
-            \before drilling."
-          ]
+          ["Check the place of the hole, and that the tool was changed before drilling."]
+      }
+  MillsItself region side element depth ends ->
+    (at side "E0406" "on this contour the cutter cuts away what is to stand on one side of it")
+      { others =
+          [ Label (origin element) ("it cuts " <> shape element),
+            Label region "milled here"
+          ],
+        message =
+          [ "With on, the centre of the cutter runs along the contour, so it cuts "
+              <> Decimal.mm depth
+              <> " to both sides. Another statement mills the same contour on one side."
+          ],
+        fixes =
+          ErrorFix.sideFixes
+            side
+            (if ends == Closed then [Inside, Outside] else [LeftSide, RightSide])
       }
   MillsAnother region milled element depth p ->
     (at region "E0406" ("milling this contour cuts into another one by " <> Decimal.mm depth))
@@ -274,15 +300,16 @@ toReport err = case err of
         message = ["The cutter's centre is then at " <> Vec.toText 3 p <> "."],
         hints = ["Use a smaller cutter, or check the sides and the distance of the contours."]
       }
-  CutsAir region z ->
+  CutsAir region z approach ->
     ( at
         region
         "E0407"
-        ("the cutter stands " <> Decimal.mm z <> " above the part here and cuts nothing")
+        ("the cutter is " <> Decimal.mm z <> " above the part here and cuts nothing")
     )
-      { hints =
-          [ "Say how deep to go: depth 5 mm. Or begin at height 0, if the height is set by \
-            \hand."
+      { fixes = [ErrorFix.heightFix place p | Just (Located place p) <- [approach]],
+        hints =
+          [ "Write how deep to go, for example: depth 5 mm. Or begin at the height 0, if the \
+            \height is set by hand."
           ]
       }
   TurnsClosed region (Name name) contour ->
@@ -320,9 +347,14 @@ toReport err = case err of
         others = [Label region "turned here"],
         hints = ["x runs along the spindle, y is the radius: half the diameter."]
       }
-  AllowanceOnContour region ->
-    (at region "E0411" "nothing can be left standing where the cutter runs on the contour itself")
-      { hints = ["Leave the allowance out, or take a side."]
+  AllowanceOnContour region (Located side _) ends ->
+    (at region "E0411" "a cutter that runs on the contour itself leaves no allowance")
+      { others = [Label side "the centre of the cutter is on the contour"],
+        fixes =
+          ErrorFix.sideFixes
+            side
+            (if ends == Closed then [Outside, Inside] else [LeftSide, RightSide]),
+        hints = ["Or leave the allowance out."]
       }
   NoBevel region ->
     (at region "E0414" "the blade does not know how far this contour leans")
@@ -331,9 +363,12 @@ toReport err = case err of
             "For a surface that does not lean take a mill: tool mill(diameter 20)."
           ]
       }
-  BladeOnContour region ->
-    (at region "E0414" "a blade has the contour on one side")
-      { hints = ["Say left, right, outside or inside instead of on."]
+  BladeOnContour region (Located side _) ends ->
+    (at region "E0414" "a blade cuts on one side of its contour, not on it")
+      { fixes =
+          ErrorFix.sideFixes
+            side
+            (if ends == Closed then [Outside, Inside] else [LeftSide, RightSide])
       }
   BevelJumps region first second a b ->
     ( at
@@ -346,144 +381,17 @@ toReport err = case err of
         message = ["A blade swivels while it moves; it cannot jump."],
         hints = ["Put an element without a bevel between them: along it the blade turns evenly."]
       }
-  NotForControl region what ->
-    (at region "E0416" "the control cannot compensate for the cutter here")
-      { message = [unsent what],
-        hints = [unsentHint what]
-      }
+  NotForControl region what -> CompensationReport.unsupported region what
   ShortForControl region asked isIn length' radius' ->
-    ( at
-        region
-        "E0417"
-        ( if length' > Mm 0
-            then
-              "the straight move "
-                <> word
-                <> " the contour is "
-                <> Decimal.mm length'
-                <> " long, but a control needs one longer than the cutter's radius, "
-                <> Decimal.mm radius'
-            else
-              "there is no straight move "
-                <> word
-                <> " the contour on which a control could "
-                <> act
-        )
-    )
-      { others = [Label asked "asked here"],
-        message =
-          [ "On it the control goes over "
-              <> ( if isIn
-                     then "from the centre of the cutter to the edge of the part."
-                     else "from the edge of the part to the centre of the cutter."
-                 )
-          ],
-        hints =
-          [ if isIn
-              then "Let the last approach point lie further away, at the height of the pass."
-              else
-                "Put a retract point beside the end of the contour, further away; without a \
-                \height of its own."
-          ]
-      }
-    where
-      word = if isIn then "onto" else "away from"
-      act =
-        if isIn then "switch cutter compensation on" else "switch cutter compensation off"
-  WrongWayForControl region asked p ->
-    (at region "E0418" "a control cannot make this move onto the contour")
-      { others = [Label asked "asked here"],
-        message =
-          [ "It ends at "
-              <> Vec.toText 3 p
-              <> ", and comes there out of the part, against the direction of travel, or nearly \
-                 \along an arc with a thin cutter."
-          ],
-        hints =
-          [ "Let the last approach point lie beside the beginning of the contour or behind it, or \
-            \lead in along an arc."
-          ]
-      }
+    CompensationReport.shortMove region asked isIn length' radius'
+  WrongWayForControl region asked p -> CompensationReport.wrongWay region asked p
   TightForControl region asked element old radius' ->
-    ( at
-        (maybe region origin element)
-        "E0419"
-        ( "a control cannot keep a cutter of diameter "
-            <> Decimal.mm (times 2 radius')
-            <> " in a concave radius of "
-            <> Decimal.mm old
-        )
-    )
-      { label = maybe "the lead" shape element,
-        others = [Label asked "asked here"],
-        message =
-          [ "The radius has to be larger than the cutter's by "
-              <> Decimal.mm Tolerance.controlArc
-              <> "."
-          ],
-        hints = ["Take a smaller cutter" <> maybe ", or a larger lead." (const ".") element]
-      }
+    CompensationReport.tightArc region asked element old radius'
   TinyForControl region asked element length' needed ->
-    ( at
-        (maybe region origin element)
-        "E0419"
-        ("an element of " <> Decimal.mm length' <> " is too short for a control to follow")
-    )
-      { label = maybe "the lead" shape element,
-        others = [Label asked "asked here"],
-        message =
-          [ if needed > Tolerance.controlLength
-              then
-                "Rounded to pulses it could seem to turn aside, and about the arc behind it the \
-                \cutter has little room. Before that arc a line has to be "
-                  <> Decimal.mm needed
-                  <> " long, an arc as large in radius."
-              else
-                "Rounded to pulses it could seem to turn into the part. Elements have to be "
-                  <> Decimal.mm Tolerance.controlLength
-                  <> " long."
-          ],
-        hints =
-          [ if maybe False ofCurve element
-              then
-                "A curve is cut where the cutter begins on it, which leaves such a piece here. \
-                \Begin elsewhere: start near …"
-              else "Leave it out, or let a neighbour take its place."
-          ]
-      }
-  SlightForControl asked first second (Rad turned) deep ->
-    ( at
-        (origin first)
-        "E0419"
-        ("a control would cut " <> Decimal.mm deep <> " off the slight corner behind this element")
-    )
-      { label = shape first,
-        others = secondLabel first second <> [Label asked "asked here"],
-        message =
-          [ "It turns by "
-              <> inDegrees (abs turned)
-              <> ", and a control takes a corner of less than "
-              <> inDegrees (let Rad b = Tolerance.controlBend in b)
-              <> " for none; an arc behind it may then be refused."
-          ],
-        hints =
-          [ "Join the elements smoothly, for instance with a fillet, or begin elsewhere: start \
-            \near …"
-          ]
-      }
-  BackForControl asked first second (Rad turned) ->
-    (at (origin first) "E0419" "a control cannot follow the corner behind this element")
-      { label = shape first,
-        others = secondLabel first second <> [Label asked "asked here"],
-        message =
-          [ "It turns by "
-              <> inDegrees (abs turned)
-              <> ", and a control takes a corner of more than "
-              <> inDegrees (let Rad b = Tolerance.controlBend in pi - b)
-              <> " for one in which it cannot move."
-          ],
-        hints = ["Round the tip, for instance with a fillet."]
-      }
+    CompensationReport.tinyElement region asked element length' needed
+  SlightForControl asked first second turned deep ->
+    CompensationReport.slightCorner asked first second turned deep
+  BackForControl asked first second turned -> CompensationReport.sharpTip asked first second turned
   NoPathInPocket region outline left ->
     noRoom region "no path clears this pocket" "its outline is" "in" outline left
   NoPathAlong region along left ->
@@ -526,28 +434,6 @@ toReport err = case err of
           ]
       }
 
--- | The reason why a control's input cannot express a request.
-unsent :: Unsupported -> Text
-unsent what = case what of
-  OnContour -> "The cutter runs on the contour itself and has no side."
-  Swivelling -> "A blade swivels while it cuts, and the control would not know how far."
-  SharpCorners -> "The control goes round corners on arcs."
-  LeavingMaterial -> "The control is told the diameter of the cutter, and leaves nothing standing."
-  Unreached ->
-    "The control goes along all of the edge, also where the cutter does not reach it: there it \
-    \would cut into the part."
-
--- | The hint for a request that the input of a control cannot express.
-unsentHint :: Unsupported -> Text
-unsentHint what = case what of
-  OnContour -> "Take a side, or leave out compensation controller."
-  Swivelling -> "Leave out compensation controller, or take a mill."
-  SharpCorners -> "Leave out corners sharp."
-  LeavingMaterial ->
-    "Mill the passes that leave something in a statement of their own, without compensation \
-    \controller."
-  Unreached -> "Leave out compensation controller, or take a smaller cutter."
-
 -- | The report that there is no room in a pocket, or beside a contour, for a pass with the
 -- allowance @left@. The label of the contour is @called@ followed by the contour's name. @side@ is
 -- the preposition, "in" or "beside".
@@ -567,10 +453,6 @@ noRoom region title called side contour left =
   where
     Located there (Name name) = contourName contour
 
--- | The label of the second element; empty if both elements come from the same region.
-secondLabel :: Element -> Element -> [Label]
-secondLabel first second = [Label (origin second) (shape second) | origin second /= origin first]
-
 -- | The text for a side.
 sideWord :: Side -> Text
 sideWord side = case side of
@@ -586,3 +468,18 @@ intruding intrusion depth = case intrusion of
   CutsContour -> "cuts into the part by " <> Decimal.mm depth
   Crossing -> "crosses the contour of the part"
   CutsAllowance -> "takes " <> Decimal.mm depth <> " of what is to be left on the contour"
+
+-- | The sentence that an element is too short for a fillet that the tool could follow. Empty if it
+-- is long enough.
+narrowText :: Tool -> Element -> Element -> [Text]
+narrowText tool first second =
+  [ "No fillet that this tool could follow fits here: "
+      <> shape narrow
+      <> " is only "
+      <> Decimal.mm (Segment.length (segment narrow))
+      <> " long."
+    | narrow : _ <- [filter isNarrow [first, second]]
+  ]
+  where
+    isNarrow e =
+      not (ofCurve e) && Segment.length (segment e) < times 2 (plus (radius tool) (leaves tool))

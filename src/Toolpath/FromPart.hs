@@ -20,9 +20,10 @@ import Data.List (tails)
 import Data.List.NonEmpty (NonEmpty (..))
 import Data.List.NonEmpty qualified as NonEmpty
 import Data.Map.Strict qualified as Map
-import Data.Maybe (fromMaybe, listToMaybe, mapMaybe)
+import Data.Maybe (fromMaybe, isJust, listToMaybe, mapMaybe)
 import Data.Vector qualified as Vector
 import Geometry.Carrier qualified as Carrier
+import Geometry.ElementCarrier (ElementCarrier (..))
 import Geometry.Vec qualified as Vec
 import Part.Part
   ( Contour (elements),
@@ -154,10 +155,11 @@ blocksOf State {number, toolRadius, at} operation = case operation of
     possible region given
     milling <- withoutWrittenElements <$> oriented region given
     if null (Part.levels milling) && heightOf milling > Mm 0
-      then Left (CutsAir (keyword region) (heightOf milling))
+      then Left (CutsAir (keyword region) (heightOf milling) (lastHeight milling))
       else do
         side <- leadingSide milling
-        passBlocks number at (Located region milling) side (passesOf milling)
+        first (roundable milling given) $
+          passBlocks number at (Located region milling) side (passesOf milling)
   where
     -- The contour as written is not needed any more; it takes much memory.
     withoutWrittenElements milling =
@@ -166,11 +168,36 @@ blocksOf State {number, toolRadius, at} operation = case operation of
     -- else at the current height.
     heightOf milling =
       fromMaybe (height at) (listToMaybe (mapMaybe Part.level (reverse (Part.approach milling))))
+    lastHeight milling =
+      listToMaybe [Part.place s | s <- reverse (Part.approach milling), isJust (Part.level s)]
     passesOf milling =
       [ (a, z)
         | a <- NonEmpty.toList (Part.allowances milling),
           z <- if null (Part.levels milling) then [heightOf milling] else Part.levels milling
       ]
+
+-- | Marks an inner corner at which the program may write a fillet: the contour is milled as
+-- written, and the element before the corner is no point and has no link. @milling@ is the milling
+-- without the written elements, @given@ the one with them.
+roundable :: Milling -> Milling -> Error -> Error
+roundable milling given e = case e of
+  InnerCorner word tool a b p largest _ ->
+    InnerCorner word tool a b p largest $
+      elements (contour milling) == elements (contour given)
+        && or
+          [ True
+            | Part.ContourElement {Part.elementRegion, Part.elementCarrier, Part.link = Nothing} <-
+                Part.writtenElements (contour given),
+              elementRegion == Part.origin a,
+              isEdge elementCarrier
+          ]
+  _ -> e
+  where
+    isEdge carrier = case carrier of
+      OnLine _ -> True
+      OnCircle _ _ -> True
+      OnCurve _ -> True
+      AtPoint _ -> False
 
 -- | The blocks of all passes of a milling statement. @number@ is the number of the statement in the
 -- order of execution, from 0. @at@ is the position of the cutter before the statement. @side@ is

@@ -19,17 +19,21 @@ import Data.Map.Strict qualified as Map
 import Data.Maybe (mapMaybe)
 import Data.Ord (comparing)
 import Data.Set qualified as Set
+import Geometry.Carrier qualified as Carrier
 import Geometry.Distance (ClosestPoint (..))
 import Geometry.Distance qualified as Distance
 import Geometry.Index.BoundingBox qualified as BoundingBox
+import Geometry.Polyarc qualified as Polyarc
 import Geometry.Segment (Segment (Arc, Straight))
 import Geometry.Segment qualified as Segment
 import Geometry.Tolerance qualified as Tolerance
 import Geometry.Vec qualified as Vec
+import Geometry.WindingNumber qualified as WindingNumber
 import Offset.Tolerance qualified as Tolerance
-import Part.Part (Accuracy, Milling (contour, radius))
+import Part.ContourElement qualified as ContourElement
+import Part.Part (Accuracy, Contour (elements), Milling (contour, radius, side), Side (..))
 import Part.Part qualified as Part
-import Toolpath.Error (Error (..), Intrusion (..))
+import Toolpath.Error (ContourBeginning (..), Error (..), Intrusion (..))
 import Toolpath.LinkingMove qualified as LinkingMove
 import Toolpath.MillingSide (keyword, leadingSide)
 import Toolpath.PointedIntrusion (PointedIntrusion (PointedIntrusion))
@@ -52,16 +56,18 @@ intrusions path = worst (concatMap (intrusionsOfBlock machined) (Toolpath.blocks
         (minimumBy (comparing depth))
         (Map.elems (Map.fromListWith (flip (<>)) [(regionOf e, [e]) | e <- errors]))
     regionOf e = case e of
-      CutsPart at _ _ _ _ _ -> at
-      HoleCuts at _ _ _ -> at
+      CutsPart at _ _ _ _ _ _ -> at
+      HoleCuts at _ _ _ _ _ -> at
+      MillsItself at _ _ _ _ -> at
       MillsAnother at _ _ _ _ -> at
       _ -> Region 0 0
 
 -- | A sort key: minus the depth of an intrusion in mm, so that the deepest one is the least.
 depth :: Error -> Double
 depth e = case e of
-  CutsPart _ _ _ (Mm d) _ _ -> -d
-  HoleCuts _ _ _ (Mm d) -> -d
+  CutsPart _ _ _ (Mm d) _ _ _ -> -d
+  HoleCuts _ _ _ (Mm d) _ _ -> -d
+  MillsItself _ _ _ (Mm d) _ -> -d
   MillsAnother _ _ _ (Mm d) _ -> -d
   _ -> 0
 
@@ -83,19 +89,8 @@ intrusionsOfBlock machined b = case b of
   Commanding _ -> []
   Travelling radius' _ ms -> concatMap (found (Intruder radius' Nothing Nothing)) ms
   Holing (Located _ d) ms ->
-    map asHole (concatMap (found (Intruder (Part.drillRadius d) Nothing Nothing)) ms)
-  Cutting {job = Located at milling, pass, approach, cut, retract} ->
-    let left = Just (number pass, minimum (Part.allowances milling))
-        linking = Intruder {tool = radius milling, own = Nothing, leaving = left}
-        cutting = Intruder {tool = radius milling, own = Just (number pass), leaving = Nothing}
-     in concatMap (found linking) (approach <> retract)
-          <> mapMaybe (throughProfile milling) (approach <> retract)
-          <> take
-            1
-            ( concatMap
-                (map (asMilling (keyword at)) . found cutting)
-                (if isAlone (number pass) then [] else NonEmpty.toList cut)
-            )
+    map (asHole d) (concatMap (found (Intruder (Part.drillRadius d) Nothing Nothing)) ms)
+  Cutting {} -> intrusionsOfPass machined b
   Clearing {pocket = Located at p, pass, approach, cleared, retract} ->
     let clearing = Intruder (radius (Part.wall p)) Nothing Nothing
         left = Just (number pass, NonEmpty.last (Part.allowances (Part.wall p)))
@@ -108,15 +103,92 @@ intrusionsOfBlock machined b = case b of
             )
   where
     found = intrusionsOfMove machined
+    asHole d e = case e of
+      CutsPart at move element deep _ _ _ ->
+        HoleCuts at (Segment.end move) element deep (Part.drillRadius d) (Part.drillSize d)
+      _ -> e
+
+-- | The intrusions of the moves of a pass along a contour. Empty for other blocks.
+intrusionsOfPass :: WallIndex -> Block -> [Error]
+intrusionsOfPass machined b = case b of
+  Cutting {job = Located at milling, pass, approach, cut, retract} ->
+    let left = Just (number pass, minimum (Part.allowances milling))
+        linking = Intruder {tool = radius milling, own = Nothing, leaving = left}
+        cutting = Intruder {tool = radius milling, own = Just (number pass), leaving = Nothing}
+        (ahead, onto) = splitAt (length approach - 1) approach
+        isClear = null . found linking
+     in map (onItself milling (keyword at)) (concatMap (found linking) (ahead <> retract))
+          <> [ onItself milling (keyword at) e
+               | m <- onto,
+                 e <- map (beginning milling (Toolpath.reach pass) isClear m) (found linking m)
+             ]
+          <> mapMaybe (throughProfile milling) (approach <> retract)
+          <> take
+            1
+            ( concatMap
+                (map (asMilling (keyword at) . onItself milling (keyword at)) . found cutting)
+                (if isAlone (number pass) then [] else NonEmpty.toList cut)
+            )
+  _ -> []
+  where
+    found = intrusionsOfMove machined
     -- If no other statement has a contour, the cuts of statement @n@ need no check.
     isAlone n = all (== n) (Wall.statements machined)
-    -- For a cut, the report names the element along which the cutter moves, instead of the move.
-    asMilling word e = case e of
-      CutsPart milled _ element deep _ p -> MillsAnother word milled element deep p
-      _ -> e
-    asHole e = case e of
-      CutsPart at move element deep _ _ -> HoleCuts at (Segment.end move) element deep
-      _ -> e
+
+-- | The error of a cut along a contour: it names the element along which the cutter moves, instead
+-- of the move. @word@ is the region of the statement's first word.
+asMilling :: Region -> Error -> Error
+asMilling word e = case e of
+  CutsPart milled _ element deep _ p _ -> MillsAnother word milled element deep p
+  _ -> e
+
+-- | The error of a cut into the contour on which a statement moves the cutter's centre. All other
+-- errors stay as they are. @word@ is the region of the statement's first word.
+onItself :: Milling -> Region -> Error -> Error
+onItself milling word e = case e of
+  CutsPart _ _ element deep _ _ _
+    | value (side milling) == On,
+      any ((== Part.origin element) . Part.origin) (elements (contour milling)) ->
+      MillsItself word (region (side milling)) element deep (Part.ends (contour milling))
+  _ -> e
+
+-- | Adds the beginning of the contour to an intrusion of the move @m@ that leads to it. The
+-- cutter's centre has to keep the distance @kept@ from the contour. @isClear@ is true of moves that
+-- cut nothing that they should not.
+beginning :: Milling -> Mm -> (Move -> Bool) -> Move -> Error -> Error
+beginning milling kept isClear m e = case e of
+  CutsPart at move element deep how p _ ->
+    CutsPart at move element deep how p . Just $
+      ContourBeginning
+        { beginsAt = Segment.start (Part.segment (NonEmpty.head (elements (contour milling)))),
+          mayMove = if mayBeginElsewhere then Just (Part.places milling) else Nothing
+        }
+  _ -> e
+  where
+    from = Segment.start (Toolpath.segment m)
+    moved = ContourElement.startingNear from (contour milling)
+    first = Part.segment (NonEmpty.head (elements moved))
+    mayBeginElsewhere =
+      Part.ends (contour milling) == Part.Closed
+        && not (Part.givesStart milling)
+        && null (Part.leadIn milling)
+        && isOnCutterSide milling from
+        && or [isClear m {Toolpath.segment = Straight from begin} | Just begin <- [newBegin]]
+    newBegin = case leadingSide milling of
+      Right (Just side') ->
+        let Mm d = kept
+            across = Vec.left (Segment.startDirection first)
+         in Just (Vec.shift (Vec.scale (d * Carrier.sideSign side') across) (Segment.start first))
+      _ -> Nothing
+
+-- | True for a point on the side of a closed contour on which the statement cuts.
+isOnCutterSide :: Milling -> Vec.Point -> Bool
+isOnCutterSide milling p = case leadingSide milling of
+  Right (Just side') ->
+    let isCounterClockwise = Polyarc.areaOf Part.segment (elements (contour milling)) > 0
+        cutsOutside = (side' == Carrier.RightOf) == isCounterClockwise
+     in cutsOutside /= WindingNumber.encloses (Part.polyarcOf (contour milling)) p
+  _ -> False
 
 -- | The intrusion of a linking move of a pointed tool into the material behind its own profile;
 -- Nothing for other tools, and when the tool moves on the profile.
@@ -126,7 +198,7 @@ throughProfile milling m
     Right (Just side') <- leadingSide milling,
     Just (PointedIntrusion element deep p) <-
       PointedIntrusion.deepest side' allowed (contour milling) path =
-    Just (CutsPart (Toolpath.origin m) path element deep CutsContour p)
+    Just (CutsPart (Toolpath.origin m) path element deep CutsContour p Nothing)
   | otherwise = Nothing
   where
     path = Toolpath.segment m
@@ -153,7 +225,7 @@ intrusionsOfMove machined intruder m
   where
     (before, after) = Toolpath.heights m
     isSamePoint e f = case (e, f) of
-      (CutsPart _ _ _ _ _ p, CutsPart _ _ _ _ _ q) -> Vec.isNear p q
+      (CutsPart _ _ _ _ _ p _, CutsPart _ _ _ _ _ q _) -> Vec.isNear p q
       _ -> False
     deepest errors = minimumBy (comparing depth) (map snd errors)
 
@@ -195,6 +267,7 @@ hit tool kept accuracy m element
           (minus (if how == CutsAllowance then kept else tool) d)
           how
           p
+          Nothing
       )
   | otherwise = Nothing
   where

@@ -77,7 +77,7 @@ possible region milling
       && ( any (> Mm 0) (Part.allowances milling)
              || any ((> Mm 0) . Part.allowance . Part.finish) list
          ) =
-    Left (AllowanceOnContour (keyword region))
+    Left (AllowanceOnContour (keyword region) (Part.side milling) (Part.ends (contour milling)))
   | otherwise = Right ()
   where
     list = NonEmpty.toList (elements (contour milling))

@@ -29,7 +29,7 @@ refusal :: Region -> Tool -> Vector Element -> Obstacle -> Error
 refusal region tool elements (Obstacle cause largest) = case cause of
   Concave i old -> ConcaveRadius region tool (elements ! i) old (fitting tool largest)
   InnerCorner i j p ->
-    Error.InnerCorner region tool (elements ! i) (elements ! j) p (fitting tool largest)
+    Error.InnerCorner region tool (elements ! i) (elements ! j) p (fitting tool largest) False
   Collision i j p ->
     Error.Collision region tool (elements ! i) (elements ! j) p (fitting tool largest)
 

@@ -14,7 +14,7 @@ import Data.List (find)
 import Data.List.NonEmpty (NonEmpty (..))
 import Data.List.NonEmpty qualified as NonEmpty
 import Data.Map.Strict qualified as Map
-import Data.Maybe (fromMaybe, isNothing, listToMaybe, mapMaybe)
+import Data.Maybe (fromMaybe, isJust, isNothing, listToMaybe, mapMaybe)
 import Data.Vector (Vector)
 import Data.Vector qualified as Vector
 import Geometry.Carrier qualified as Carrier
@@ -58,7 +58,7 @@ blocks number at (Located region given) = do
     (Left . KeepsMore word)
   when
     (isNothing (clearanceAndLevels milling) && currentHeight > Mm 0)
-    (Left (CutsAir word currentHeight))
+    (Left (CutsAir word currentHeight lastHeight))
   rests <- restAtWalls word pocket
   reverse . snd <$> foldM (addPass rests) (at, []) (zip [1 ..] passes)
   where
@@ -69,6 +69,8 @@ blocks number at (Located region given) = do
     currentHeight =
       fromMaybe (height at) (listToMaybe (mapMaybe Part.level (reverse (Part.approach milling))))
     passes = passesOf pocket currentHeight
+    lastHeight =
+      listToMaybe [Part.place s | s <- reverse (Part.approach milling), isJust (Part.level s)]
     addPass rests (position, done) (k, pass) = do
       let visit =
             Visit

@@ -72,4 +72,9 @@ remaining word milling islands pass rests =
 -- | The cutter of a statement, with the allowance that a pass leaves.
 toolOf :: Milling -> Mm -> Tool
 toolOf milling allowance =
-  Tool {work = Part.work milling, radius = Part.radius milling, leaves = allowance}
+  Tool
+    { work = Part.work milling,
+      radius = Part.radius milling,
+      leaves = allowance,
+      places = Part.places milling
+    }

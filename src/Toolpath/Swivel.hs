@@ -44,11 +44,12 @@ axis region milling side offsetSegments = case Part.gear milling of
   Nothing -> Right Nothing
   Just gear -> do
     elementBevels <- maybe (Left (NoBevel region)) Right (bevels (Part.contour milling))
-    sign <- maybe (Left (BladeOnContour region)) (Right . Carrier.sideSign) side
+    sign <- maybe (Left onContour) (Right . Carrier.sideSign) side
     checkJoints region elements elementBevels offsetSegments
     let heightsOf (a, b) = (height sign gear a, height sign gear b)
     Right (Just (fmap heightsOf (angles elementBevels offsetSegments)))
   where
+    onContour = BladeOnContour region (Part.side milling) (Part.ends (Part.contour milling))
     elements = Vector.fromList (NonEmpty.toList (Part.elements (Part.contour milling)))
     height sign (Mm gear) angle = Mm (sign * angle * gear / 2)
 

@@ -5,6 +5,7 @@ module Toolpath.Warning
   )
 where
 
+import Base.Decimal qualified as Decimal
 import Base.Quantity (Mm (..))
 import Base.Region (Located (..), Region)
 import Data.List (minimumBy, sortOn)
@@ -13,6 +14,7 @@ import Data.Map.Strict (Map)
 import Data.Map.Strict qualified as Map
 import Data.Maybe (mapMaybe)
 import Data.Ord (comparing)
+import Data.Text (Text)
 import Geometry.Index.BoundingBox (BoundingBox)
 import Geometry.Index.BoundingBox qualified as BoundingBox
 import Geometry.Index.BoxTree (BoxTree)
@@ -273,18 +275,23 @@ stoppedSpindles path = if Toolpath.isTurned path then [] else go Resting (Toolpa
       (_, []) -> []
       (_, Commanding (Located at c) : rest) -> go (commanded spindle at c) rest
       (_, Travelling {} : rest) -> go spindle rest
-      (Stopped at, _ : rest) -> SpindleAtRest at : go Resting rest
+      (Stopped at before', _ : rest) -> SpindleAtRest at before' : go Resting rest
       (_, _ : rest) -> go spindle rest
     commanded spindle at c = case (c, spindle) of
-      (Part.SpindleOn _ _, _) -> Turning
+      (Part.SpindleOn sense speed, _) -> Turning (spindleText sense speed)
       (Part.SpindleOff, _) -> Resting
-      (Part.ChangeTool _ _, Turning) -> Stopped at
+      (Part.ChangeTool _ _, Turning text) -> Stopped at text
       _ -> spindle
+    spindleText sense speed =
+      "spindle "
+        <> (case sense of Part.Clockwise -> "cw"; Part.CounterClockwise -> "ccw")
+        <> maybe "" (\n -> " " <> Decimal.short 4 n <> " rpm") speed
 
 -- | The state of the spindle while the blocks are executed.
 data Spindle
   = -- | switched off, never switched on by the program, or already warned about; needs no warning
     Resting
-  | Turning
-  | -- | stopped by the tool change in this region
-    Stopped Region
+  | -- | turning; the text is the statement that started it
+    Turning Text
+  | -- | stopped by the tool change in this region; the text is the statement that started it before
+    Stopped Region Text

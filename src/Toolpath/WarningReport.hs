@@ -12,6 +12,7 @@ module Toolpath.WarningReport
     fittingSize,
     workVerb,
     shape,
+    secondLabel,
     at,
     inDegrees,
   )
@@ -21,17 +22,20 @@ import Base.Decimal qualified as Decimal
 import Base.Name (Name (..))
 import Base.Quantity (Mm (..), Rad (..), degrees, times)
 import Base.Region (Located (..), Region)
+import Base.Region qualified as Region
 import Data.Text (Text)
 import Geometry.Segment (Segment (..))
 import Geometry.Segment qualified as Segment
 import Geometry.Vec (Point)
 import Geometry.Vec qualified as Vec
-import Part.Part (Element (..), Work (..))
+import Part.Part (Element (..), MillingPlaces, Work (..))
+import Report.Fix qualified as Fix
 import Report.Report (Label (..), Report (..), ReportCode, ReportPlace (..), report)
 import Report.Report qualified as Report
 
--- | A cutter at work: the kind of work, the cutter's radius, and the allowance that it leaves.
-data Tool = Tool {work :: Work, radius :: Mm, leaves :: Mm}
+-- | A cutter at work: the kind of work, the cutter's radius, the allowance that it leaves, and the
+-- regions of the program that a fix may change.
+data Tool = Tool {work :: Work, radius :: Mm, leaves :: Mm, places :: MillingPlaces}
   deriving stock (Eq, Show)
 
 -- | Warnings about a toolpath that has no errors.
@@ -47,8 +51,9 @@ data Warning
   | -- | a rapid move into a hole that is not drilled yet: the region of the move, its lowest point,
     -- its height there, the region of the hole
     RapidIntoHole Region Point Mm Region
-  | -- | a tool change after which the program does not start the spindle
-    SpindleAtRest Region
+  | -- | a tool change after which the program does not start the spindle: the statement that
+    -- started it before, as the program would write it
+    SpindleAtRest Region Text
   deriving stock (Eq, Show)
 
 -- | Rest material at a position that the cutter does not reach. The last field of 'InConcaveArc'
@@ -111,18 +116,22 @@ warningReport warning = case warning of
       (Label hole "not drilled yet")
       "The hole is not drilled"
       "let the drill go down at its feed."
-  SpindleAtRest region ->
+  SpindleAtRest region spindle ->
     ( report
         Report.Warning
         "W0403"
         (InSource region)
-        "behind this change nothing lets the spindle turn again"
+        "after this tool change the spindle stands still"
     )
-      { message =
-          [ "A spindle stands while its tool is changed; what turned it before holds no \
-            \longer."
-          ],
-        hints = ["Say it again behind the change, for example: spindle cw 800 rpm"]
+      { message = ["The spindle stops when its tool is changed, and nothing starts it again."],
+        fixes =
+          [ Fix.proposed
+              ( Fix.insertion
+                  ("Start it after the change: " <> spindle <> ".")
+                  (Region.end region)
+                  ("\n" <> spindle)
+              )
+          ]
       }
   where
     shown = 8
@@ -230,3 +239,7 @@ largestFit tool largest = case (work tool, largest) of
   (_, Nothing) -> "No cutter fits here, however small."
   (Milled, Just r) -> "The largest cutter that fits has a diameter of " <> fittingSize tool r <> "."
   (Turned, Just r) -> "The largest nose that fits has a radius of " <> fittingSize tool r <> "."
+
+-- | The label of the second element; empty if both elements come from the same region.
+secondLabel :: Element -> Element -> [Label]
+secondLabel first second = [Label (origin second) (shape second) | origin second /= origin first]

@@ -133,7 +133,7 @@ spec = do
     c = Left
     go = Right (1 :: Double)
     stay = Right 0
-    tool n = ChangeTool n (Part.Cutter MillingCutter (Mm 1))
+    tool n = ChangeTool n (Part.Cutter MillingCutter (Mm 1) Nothing)
     kontur = Machines.named "kontur-3p"
     iso = Machines.named "iso6983"
 

@@ -91,6 +91,7 @@ drilling = do
   pure
     Drilling
       { Part.holes = NonEmpty.fromList (map here apart),
+        Part.drillSize = Nothing,
         Part.drillRadius = Mm 2.5,
         Part.bottom = Mm (-deep),
         Part.travelHeight = clear,

@@ -112,6 +112,7 @@ pocketing before p =
             Part.side = here Part.Inside,
             Part.radius = cutter p,
             Part.gear = Nothing,
+            Part.places = Part.MillingPlaces (Region 0 0) Nothing (Region 0 0),
             Part.tolerance = Part.OnPath (Mm 0.03),
             Part.feed = here (Feed 60),
             Part.approach = [],

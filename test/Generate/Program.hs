@@ -163,7 +163,7 @@ statement n = at (frequency ([(1, s) | s <- simple] <> [(3, s) | n > 0, s <- dee
         Auxiliary <$> expr n
       ]
     deep =
-      [ Contour <$> at name <*> every <*> some' 5 (item (n - 1)),
+      [ Contour <$> at name <*> at every <*> some' 5 (item (n - 1)),
         Table
           <$> at name
             <*> ( WrittenLines

@@ -160,7 +160,9 @@ spec = do
             let reports = reportsOn (wrong e)
             nub (map Report.code reports) `shouldBe` [code e]
             map Report.place reports `shouldSatisfy` all isInSource
-            let isReported stop = any (any (Text.isInfixOf stop) . Report.message) reports
+            let isNamedIn stop r =
+                  Report.controlStop r == Just stop || any (Text.isInfixOf stop) (Report.message r)
+                isReported stop = any (isNamedIn stop) reports
                 isExplained stop = Text.isInfixOf stop (prose e)
             filter (\stop -> isReported stop /= isExplained stop) controlStops `shouldBe` []
             -- The machine of the examples does not drive the z axis, so drilling raises a warning.
