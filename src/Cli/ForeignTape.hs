@@ -2,7 +2,7 @@
 -- tape that the compiler makes of the program, and the machines that can read it.
 module Cli.ForeignTape
   ( sentences,
-    readers,
+    withReaders,
   )
 where
 
@@ -20,6 +20,7 @@ import Machine.BuiltIn qualified as BuiltIn
 import Machine.Machine (Machine, MachineName (..))
 import Machine.Machine qualified as Machine
 import Machine.TapeCode qualified as TapeCode
+import Report.Report (Report (..))
 import Tape.Punch qualified as Tape
 import Tape.RowMeaning (Row (..))
 import Tape.RowMeaning qualified as RowMeaning
@@ -70,12 +71,27 @@ holesText machine known w =
     symbols =
       [" (" <> RowMeaning.shown c <> ")" | Row {holes, symbol = Just c} <- known, holes == w]
 
--- | The names of the built-in machines, other than the given one, that can read a tape.
-readers :: Machine -> Tape -> [Text]
-readers machine given =
-  [ name
-    | m <- BuiltIn.machines,
-      let MachineName name = Machine.name m,
-      Machine.name m /= Machine.name machine,
-      Right (_ : _) <- [Tape.read m (Pulses3 0 0 0) given]
-  ]
+-- | Adds to a report on a tape, which the given machine cannot read, the names of the built-in
+-- machines that can.
+withReaders :: Machine -> Tape -> Report -> Report
+withReaders machine given report = case readers of
+  [] -> report
+  first : more ->
+    report
+      { hints =
+          [ Text.intercalate " and " readers
+              <> (if null more then " reads" else " read")
+              <> " this tape: write -t "
+              <> first
+              <> "."
+          ]
+            <> hints report
+      }
+  where
+    readers =
+      [ name
+        | m <- BuiltIn.machines,
+          let MachineName name = Machine.name m,
+          Machine.name m /= Machine.name machine,
+          Right (_ : _) <- [Tape.read m (Pulses3 0 0 0) given]
+      ]

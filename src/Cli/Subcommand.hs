@@ -60,7 +60,7 @@ import Project.Job qualified as Job
 import Project.Target qualified as Target
 import Query.Snapshot qualified as Snapshot
 import Report.Explanation qualified as Explanation
-import Report.Report (Report (hints, message))
+import Report.Report (Report (message))
 import Sheet.Error qualified as Sheet
 import Sheet.FromPart qualified as Sheet
 import Sheet.FromText qualified as Sheet
@@ -173,17 +173,9 @@ verifyTape ::
 verifyTape reporter given tapeName compiled rows pulses =
   case Tape.readExpected machine (Frame.start (program punched)) (framesOf punched) rows of
     Left damage -> do
-      let damaged = Tape.toReport damage
-          others = ForeignTape.readers machine rows
-          hinted =
-            damaged
-              { message = message damaged <> ForeignTape.sentences compiled rows,
-                hints =
-                  [ "The tape is one of " <> Text.intercalate ", " others <> ": name it by -t."
-                    | not (null others)
-                  ]
-              }
-      Failed <$ Output.showReports reporter tapeName (source given) [hinted]
+      let damaged = ForeignTape.withReaders machine rows (Tape.toReport damage)
+          report' = damaged {message = message damaged <> ForeignTape.sentences compiled rows}
+      Failed <$ Output.showReports reporter tapeName (source given) [report']
     Right read' -> do
       let result = Compile.proveTape part compiled read'
       Progress.during ("proving " <> tapeName) (evaluated result)
@@ -313,7 +305,11 @@ drawTape reporter target range tapeFile = withTape reporter target tapeFile $ \m
 withTape :: Reporter -> Maybe Text -> FilePath -> (Machine -> [Frame] -> IO Exit) -> IO Exit
 withTape reporter target tapeFile continue =
   withTapeFile reporter target tapeFile $ \machine rows -> case Tape.read machine 0 rows of
-    Left damage -> failWithReport reporter (displayName tapeFile) (Tape.toReport damage)
+    Left damage ->
+      failWithReport
+        reporter
+        (displayName tapeFile)
+        (ForeignTape.withReaders machine rows (Tape.toReport damage))
     Right read' -> continue machine read'
 
 -- Machines, explanations, editors -----------------------------------------------------------------

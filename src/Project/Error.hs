@@ -38,18 +38,20 @@ toReport :: Error -> Report
 toReport err = case err of
   NoMachine known offset ->
     (wrong "E0804" InFile "the program names no machine")
-      { fixes =
-          [ Fix.proposed (Fix.insertion ("Write machine " <> name <> ".") at ("\nmachine " <> name))
+      { message = ["The machines are: " <> Text.intercalate ", " known <> "."],
+        fixes =
+          [ Fix.proposed
+              ( Fix.insertion
+                  ("Write in the program: machine " <> name <> ", or another one.")
+                  at
+                  ("machine " <> name <> "\n")
+              )
             | Just at <- [offset],
-              name <- known
+              name <- take 1 known
           ],
         hints =
-          [ "Write in the program: machine NAME, or on the command line: -t NAME. The machines are "
-              <> Text.intercalate ", " known
-              <> "."
-            | null offset
-          ]
-            <> ["Or name it on the command line: -t NAME." | not (null offset)]
+          ["Write in the program: machine NAME" | null offset]
+            <> ["Or name it on the command line: -t NAME"]
       }
   UnknownMachine place name known ->
     (wrong "E0805" (maybe InFile InSource place) ("there is no machine named ‘" <> name <> "’"))
@@ -58,7 +60,7 @@ toReport err = case err of
           [ if isFile
               then
                 Fix.exchange
-                  "Write the name of a description in quotation marks."
+                  ("Write its description in quotation marks: machine \"" <> name <> "\"")
                   region
                   ("\"" <> name <> "\"")
               else Fix.exchange ("Write " <> n <> ".") region n

@@ -24,7 +24,7 @@ import Geometry.Segment (Segment (..))
 import Geometry.Segment qualified as Segment
 import Geometry.Vec (Point)
 import Geometry.Vec qualified as Vec
-import Part.Part (Element (..), MillingPlaces (..), Side (..), plainFinish)
+import Part.Part (Element (..), MillingPlaces (..), Side (..), Work (..), plainFinish)
 import Report.Fix (Fix)
 import Report.Fix qualified as Fix
 import Toolpath.Tolerance qualified as Tolerance
@@ -33,16 +33,20 @@ import Toolpath.WarningReport (Tool (..), fittingSize)
 -- | Fix that writes the size of the largest tool that fits. @largest@ is its radius.
 sizeFixes :: Tool -> Maybe Mm -> [Fix]
 sizeFixes tool largest =
-  [ Fix.proposed (Fix.exchange ("Take the largest that fits: " <> size <> ".") place size)
+  [ Fix.proposed (Fix.exchange (largestText <> size <> ".") place size)
     | Just r <- [largest],
       r >= Tolerance.smallestCutter,
       let size = fittingSize tool r,
       Just place <- [toolSize (places tool)]
   ]
+  where
+    largestText = case work tool of
+      Milled -> "Take the largest cutter that fits: diameter "
+      Turned -> "Take the largest nose that fits: radius "
 
 -- | Fix that accepts the material that the tool does not reach.
 restFix :: MillingPlaces -> Fix
-restFix = setting "Let the material stay there: rest allowed." "rest allowed"
+restFix = setting "Let the material that it does not reach stay: rest allowed." "rest allowed"
 
 -- | Fix that writes a setting at the end of a statement's block.
 setting :: Text -> Text -> MillingPlaces -> Fix

@@ -242,6 +242,16 @@ spec = do
         err
           `shouldSatisfy` isInfixOf
             "The first frame that differs from this program's own is frame 50."
+        err `shouldSatisfy` isInfixOf "Row 814 (frame 50) has the holes 01111"
+        err `shouldSatisfy` isInfixOf "All other rows are the same."
+    it "names the machine that reads the tape of another one" $
+      inFolder $ \folder -> do
+        let tape = folder </> "n55.tape"
+        (made, _, _) <- partc ["compile", "examples/flange.part", "-t", "n55", "-o", tape]
+        made `shouldBe` ExitSuccess
+        (code, _, err) <- partc ["verify", "examples/flange.part", tape]
+        code `shouldBe` ExitFailure 1
+        err `shouldSatisfy` isInfixOf "n55 reads this tape: write -t n55."
     it "reports a damaged tape with its row" $
       inFolder $ \folder -> do
         let Tape rows = Flange.tape
