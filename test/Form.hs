@@ -200,6 +200,8 @@ longFunctions =
       [ "Checked.Builtin.forms",
         "Checked.Builtin.name",
         "Checked.Error.toReport",
+        "Checked.ErrorFix.conversions",
+        "Checked.PieceError.toReport",
         "Cli.Error.toReport",
         "Cli.Options.commands",
         "Frame.Error.toReport",
@@ -226,7 +228,7 @@ longFunctions =
       ]
       <> because
         "one arm per constructor; the longer arms are functions of their own"
-        [ "Checked.Expression.infer",
+        [ "Checked.Expression.inferred",
           "Checked.FromSurface.statement",
           "Part.Expression.evaluate",
           "Part.FromChecked.step",

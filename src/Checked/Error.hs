@@ -2,14 +2,13 @@
 
 -- | Mistakes in names, types and the order of statements, and their reports.
 --
--- A piece is a curve that is shifted by ciphers, as in the Minsk-22 system. A cipher is a digit, 1,
--- 2, 4 or 6, with values: the digit says by which rule the values give the distance of the shift.
---
 -- A form of a function is one list of parameters with which it can be called.
 module Checked.Error
   ( Error (..),
     RequiredSetting (..),
     UndefinedOperation (..),
+    StatementMove (..),
+    LabelChange (..),
     toReport,
   )
 where
@@ -17,12 +16,18 @@ where
 import Base.Decimal qualified as Decimal
 import Base.Name (Name (..))
 import Base.Name qualified as Name
-import Base.Region (Region (start))
+import Base.Region (Region (..))
+import Checked.ErrorFix (WrittenTerm)
+import Checked.ErrorFix qualified as ErrorFix
+import Checked.PieceError (PieceError)
+import Checked.PieceError qualified as PieceError
 import Checked.Syntax (Operator (..))
 import Checked.Type (Type (..))
 import Checked.Type qualified as Type
+import Data.List (nub)
 import Data.List.NonEmpty (NonEmpty)
 import Data.List.NonEmpty qualified as NonEmpty
+import Data.Maybe (isJust, isNothing)
 import Data.Text (Text)
 import Data.Text qualified as Text
 import Report.Fix (Fix)
@@ -37,90 +42,102 @@ import Report.Report
     report,
   )
 
--- | A mistake. The first field of every constructor is the region that the report points at. The
--- comment of a constructor names the other fields in order.
+-- | A mistake. The first field of every constructor but the last is the region that the report
+-- points at. The comment of a constructor names the other fields in order.
 data Error
   = -- | an unknown name: this name, and all names and words that are known, for a suggestion
     UndefinedName Region Name [Text]
-  | -- | a name that is defined only below: the name, and the region of the definition
-    UsedBeforeDefinition Region Name Region
-  | -- | a name that is already defined: the name, and the region of the first definition
-    DefinedTwice Region Name Region
-  | -- | a definition of a name that belongs to the language: the name
-    NameTaken Region Name
-  | -- | a term of the wrong type: the required type, the type of the term, and the other regions at
-    -- which these types were decided, each with the decided type
-    Mismatch Region Type Type [(Region, Type)]
+  | -- | a call of an unknown function: its name, and all names and words that are known
+    UndefinedFunction Region Name [Text]
+  | -- | a name that is defined only below: the name, the region of the definition, and the move of
+    -- a statement that would mend the mistake
+    UsedBeforeDefinition Region Name Region (Maybe StatementMove)
+  | -- | a name that is already defined: the name, the region of the first definition, and the
+    -- second definition
+    DefinedTwice Region Name Region WrittenTerm
+  | -- | a definition of a name that belongs to the language: the name, facts about its definition,
+    -- and the regions of its uses
+    NameTaken Region Name WrittenTerm [Region]
+  | -- | a term of the wrong type: the required type, the type of the term, the other regions at
+    -- which these types were decided, each with the decided type, and facts about the term
+    Mismatch Region Type Type [(Region, Type)] WrittenTerm
   | -- | a sum, a difference or a comparison whose operands do not fit: the operator, the left and
     -- the right operand, and the other regions at which their types were decided, each with the
-    -- decided type
-    Disagree Region Operator (Region, Type) (Region, Type) [(Region, Type)]
+    -- decided type. Then the facts about both operands; 'Nothing' if the operation is in the body
+    -- of a function and the region is that of a call
+    Disagree
+      Region
+      Operator
+      (Region, Type)
+      (Region, Type)
+      [(Region, Type)]
+      (Maybe (WrittenTerm, WrittenTerm))
   | -- | an operation that is not defined for its operands: the operation, and the operands
     NoOperation Region UndefinedOperation [(Region, Type)]
-  | -- | a call with a wrong number of arguments: the function, its parameters, and the number of
-    -- arguments in the call
-    ArgumentCount Region Name [Text] Int
-  | -- | a call of a name that is no function: the name, and the region of its definition unless it
-    -- is built in
-    NotAFunction Region Name (Maybe Region)
+  | -- | a call with a wrong number of arguments: the function, its parameters, each with a value
+    -- that could stand in its place, the regions of the arguments in the call,
+    -- and the commas that may be decimal commas
+    ArgumentCount Region Name [(Text, Maybe Text)] [Region] [Region]
+  | -- | two arguments in the wrong order: the function, the arguments with their types, and the
+    -- right order as a call
+    Swapped Region Name [(Region, Type)] Text (Int, Int)
+  | -- | a call of a name that is no function: the name, the region of its definition unless it is
+    -- built in, and the number of arguments
+    NotAFunction Region Name (Maybe Region) Int
   | -- | the name of a function without the arguments that it needs: the name, and the forms of the
-    -- function as calls
-    FunctionAsValue Region Name [Text]
+    -- function as calls. If the name is that of a divisor, also the end of the dividend
+    FunctionAsValue Region Name [Text] (Maybe Int)
   | -- | a circle as an element of a contour without the sense that it needs
     SenseMissing Region
   | -- | a sense before an element that is no circle: the type of the element
     SenseUnneeded Region Type
-  | -- | an expression that cannot be an element of a contour: its type
-    NotAnElement Region Type
+  | -- | an expression that cannot be an element of a contour: its type, and facts about it
+    NotAnElement Region Type WrittenTerm
   | -- | a program that does not begin with @part@
     NoPart Region
   | -- | a setting of the whole program that occurs again: the setting, and the region of its first
     -- statement
     SettingTwice Region RequiredSetting Region
-  | -- | a statement that needs settings above it which are missing: the missing settings. The
-    -- report points at the keyword of the statement
-    SettingsMissing Region (NonEmpty RequiredSetting)
+  | -- | a statement that needs settings above it which are missing: the keyword of the statement,
+    -- the missing settings, and for each the region of a statement below that gives it. The report
+    -- points at the keyword
+    SettingsMissing Region Text (NonEmpty (RequiredSetting, Maybe Region))
   | -- | a name that is used in its own definition: the name
     Recursive Region Name
   | -- | arguments that fit no form of a built-in function: the function, the regions and types of
-    -- the arguments, and the forms of the function as calls
-    NoForm Region Text [(Region, Type)] [Text]
+    -- the arguments, the forms of the function as calls, and arguments that alone do not fit a
+    -- form, each with the type that would fit and its own. Then the words that lead to a form, and
+    -- the commas that may be decimal commas
+    NoForm Region Text [(Region, Type)] [Text] [(Region, Type, Type)] [LabelChange] [Region]
   | -- | a call for which the number of arguments, or the words such as @near@ before them, belong
-    -- to no form: the built-in function, and its forms as calls
-    NoSuchCall Region Text [Text]
-  | -- | a statement that is not allowed in a block: the keyword of the statement
-    NotInBlock Region Text
+    -- to no form: the built-in function, its forms as calls, changes of one word that lead to a
+    -- form. If there are no such words: the regions of the arguments, and the parameters of the
+    -- form with the nearest number of parameters, each with a value that could stand in its place.
+    -- Last, the commas that may be decimal commas
+    NoSuchCall Region Text [Text] [LabelChange] (Maybe ([Region], [(Text, Maybe Text)])) [Region]
+  | -- | a statement that is not allowed in a block: the keyword of the statement, and its move to a
+    -- place above the block
+    NotInBlock Region Text StatementMove
   | -- | a setting that is not allowed in its statement: the setting, the keyword of the statement,
     -- and the settings that are allowed in this statement
     ForeignSetting Region Text Text [Text]
   | -- | a setting that occurs again in a block: the setting, and the region of an earlier
     -- occurrence
     RepeatedSetting Region Text Region
-  | -- | a tolerance of an assertion that is no equality
-    WithinWithoutEquality Region
-  | -- | a table whose first line does not name the columns
-    HeadingsMissing Region
-  | -- | headings below the first line of a table
-    HeadingsRepeated Region
-  | -- | a column whose name an earlier column has: the name, and the region of that column
-    ColumnTwice Region Name Region
-  | -- | a table without a column x or y: the name of the missing column
-    ColumnMissing Region Name
-  | -- | a row of the wrong length: the number of the row from 1, the number of columns, and the
-    -- number of cells in the row
-    RowLength Region Int Int Int
-  | -- | an unknown cipher: the digit of the cipher
-    NoSuchCipher Region Text
-  | -- | a cipher with a wrong number of values: the digit of the cipher, and the number of its
-    -- values
-    CipherMisfit Region Text Int
-  | -- | a name that is neither a column of the curve's table nor a name in scope, in an expression
-    -- whose value may vary along the curve: the name, and the columns
-    NoColumn Region Name [Text]
-  | -- | the name of a column in an expression that must have one value for the whole piece: the
-    -- digit of the cipher, and the column
-    ColumnForWholePiece Region Text Name
+  | -- | a tolerance of an assertion that is no equality: the region between the condition and the
+    -- end of the tolerance, and that between the operands of a comparison
+    WithinWithoutEquality Region Region (Maybe Region)
+  | -- | a mistake in a table or a piece
+    InPiece PieceError
   deriving stock (Eq, Show)
+
+-- | The move of a statement: its region, and the offset to which it goes.
+data StatementMove = StatementMove Region Int
+  deriving stock (Eq, Show)
+
+-- | A change of the word before an argument: the region that is replaced, and the new text.
+data LabelChange = LabelChange Region Text
+  deriving stock (Eq, Ord, Show)
 
 -- | The operation of a 'NoOperation' error.
 data UndefinedOperation = UndefinedNegation | UndefinedProduct | UndefinedQuotient
@@ -142,35 +159,48 @@ toReport :: Error -> Report
 toReport err = case err of
   UndefinedName region (Name name) known ->
     (at region "E0201" ("nothing is named " <> quote name))
-      { fixes =
-          [ Fix.exchange ("Write " <> quote w <> ".") region w
-            | w <- take 2 (Name.lookAlike name known <> Name.nearest name known)
-          ],
-        hints =
-          [ "One of both names has a letter of the other alphabet, Cyrillic or Latin."
-            | _ : _ <- [Name.lookAlike name known]
-          ]
+      { fixes = ErrorFix.nameFixes region name known,
+        hints = lookAlikeHint name known
       }
-  UsedBeforeDefinition region (Name name) defined ->
-    (at region "E0202" (quote name <> " is used before it is defined"))
+  UndefinedFunction region (Name name) known ->
+    (at region "E0201" ("no function is named " <> quote name))
+      { fixes = ErrorFix.callFixes region name known,
+        hints = lookAlikeHint name known
+      }
+  UsedBeforeDefinition region (Name name) defined move ->
+    (at region "E0202" (quote name <> " is used above its definition"))
       { others = [Label defined "it is defined here"],
-        hints = ["Move the definition above its first use."]
+        fixes =
+          [ Fix.proposed (Fix.move "Move the definition above its first use." statement offset)
+            | Just (StatementMove statement offset) <- [move]
+          ],
+        hints = ["Move the definition above its first use." | Nothing <- [move]]
       }
-  DefinedTwice region (Name name) before ->
+  DefinedTwice region (Name name) before again ->
     (at region "E0203" (quote name <> " is defined twice"))
       { label = "defined again here",
         others = [Label before "first defined here"],
-        hints = ["Give one of them another name."]
+        fixes =
+          [ Fix.proposed (Fix.exchange ("Name the second one " <> free <> ".") region free)
+            | Just (_, free) <- [ErrorFix.freeName again]
+          ]
+            <> [ Fix.proposed (Fix.removal "Leave the second one out." whole)
+                 | Just whole <- [ErrorFix.statement again]
+               ]
       }
-  NameTaken region (Name name) ->
-    (at region "E0204" (quote name <> " already means something in the language"))
-      { hints = ["Choose another name, for example " <> name <> "1."]
+  NameTaken region (Name name) term uses ->
+    (at region "E0204" (quote name <> " has a meaning in the language already"))
+      { fixes =
+          [ Fix.joined ("Name it " <> free <> ".") [Fix.exchange "" r free | r <- region : uses]
+            | Just (_, free) <- [ErrorFix.freeName term]
+          ]
       }
-  Mismatch region expected found elsewhere ->
+  Mismatch region expected found elsewhere term ->
     ( at
         region
         "E0205"
-        ( "this is "
+        ( ErrorFix.subject term
+            <> " is "
             <> Type.describe found
             <> ", but "
             <> Type.describe expected
@@ -179,42 +209,50 @@ toReport err = case err of
     )
       { label = Type.describe found,
         others = decidedLabels elsewhere,
-        fixes = mismatchFixes region expected found,
+        fixes = ErrorFix.mismatchFixes region expected found term,
         hints = mismatchHint expected found
       }
-  Disagree region operator (leftRegion, left) (rightRegion, right) elsewhere ->
+  Disagree region operator (leftRegion, left) (rightRegion, right) elsewhere terms ->
     ( at
         region
         "E0206"
-        ( Type.describe left
-            <> " and "
-            <> Type.describe right
+        ( operands terms
             <> " cannot be "
-            <> (if operator `elem` [Add, Subtract] then "added or subtracted" else "compared")
+            <> case operator of
+              Add -> "added"
+              Subtract -> "subtracted"
+              _ -> "compared"
+            <> ( if Type.describe left == Type.describe right
+                   then ": each is " <> Type.describe left
+                   else ": they are " <> Type.describe left <> " and " <> Type.describe right
+               )
         )
     )
       { others =
           [Label leftRegion (Type.describe left), Label rightRegion (Type.describe right)]
             <> decidedLabels elsewhere,
+        fixes =
+          concat
+            [ ErrorFix.disagreeFixes operator (leftRegion, left, a) (rightRegion, right, b)
+              | Just (a, b) <- [terms]
+            ],
         hints =
           [ "Compare their distance: distance(p, q) < 0.001"
-            | operator `notElem` [Add, Subtract],
+            | operator `notElem` [Add, Subtract, Equal],
               Spatial _ <- [left],
               Spatial _ <- [right]
           ]
       }
-  NoOperation region operation operands ->
+  NoOperation region operation values ->
     ( at
         region
         "E0207"
-        ( operationWords operation
-            <> " is not defined for "
-            <> Text.intercalate " and " (map (Type.describe . snd) operands)
-        )
+        (operationTitle operation (map (Type.describe . snd) values))
     )
-      { others = [Label r (Type.describe t) | (r, t) <- operands]
+      { others = [Label r (Type.describe t) | (r, t) <- values],
+        fixes = ErrorFix.measureFixes values
       }
-  ArgumentCount region (Name name) wanted given ->
+  ArgumentCount region (Name name) wanted given commas ->
     ( at
         region
         "E0208"
@@ -222,22 +260,48 @@ toReport err = case err of
             <> " takes "
             <> arguments (length wanted)
             <> ", but "
-            <> Decimal.whole given
-            <> (if given == 1 then " is" else " are")
+            <> Decimal.whole (length given)
+            <> (if length given == 1 then " is" else " are")
             <> " given"
         )
     )
-      { hints = ["Write " <> name <> "(" <> Text.intercalate ", " wanted <> ")."]
+      { message =
+          [ "Missing: " <> Text.intercalate ", " (map fst missing) <> "."
+            | let missing = drop (length given) wanted,
+              not (null missing)
+          ],
+        fixes = ErrorFix.decimalFixes commas <> ErrorFix.argumentFixes wanted given,
+        hints = ["Write " <> name <> "(" <> Text.intercalate ", " (map fst wanted) <> ")."]
       }
-  NotAFunction region (Name name) defined ->
+  Swapped region (Name name) given form (i, j) ->
+    (at region "E0218" ("two arguments of " <> quote name <> " are in the wrong order"))
+      { message =
+          ["It is called as " <> form <> "."],
+        others = [Label r (Type.describe t) | (r, t) <- given],
+        fixes =
+          [ Fix.swap "Exchange these two arguments." a b
+            | (a, _) : _ <- [drop i given],
+              (b, _) : _ <- [drop j given]
+          ]
+      }
+  NotAFunction region (Name name) defined count ->
     (at region "E0209" (quote name <> " is a value, not a function"))
-      { others = [Label r "defined here" | Just r <- [defined]]
+      { others = [Label r "defined here" | Just r <- [defined]],
+        fixes =
+          [ Fix.proposed (Fix.insertion "Write the product with *." (end region) " * ")
+            | count == 1
+          ]
       }
-  FunctionAsValue region (Name name) known ->
+  FunctionAsValue region (Name name) known feed ->
     (at region "E0210" (quote name <> " is a function and needs its arguments"))
-      { hints =
-          ["Write " <> Text.intercalate ", or " (take 3 known) <> "."]
-            <> ["For a feed write mm/min without spaces." | name == "min"]
+      { fixes =
+          [ Fix.exchange
+              "Write the unit of the feed without spaces."
+              (Region from (start region))
+              "/"
+            | Just from <- [feed]
+          ],
+        hints = ["Write " <> Text.intercalate ", or " (take 3 known) <> "." | Nothing <- [feed]]
       }
   SenseMissing region ->
     (at region "E0211" "a circle in a contour needs a sense")
@@ -247,21 +311,26 @@ toReport err = case err of
           ]
       }
   SenseUnneeded region t ->
-    (at region "E0212" ("cw and ccw stand before a circle, but this is " <> Type.describe t))
+    (at region "E0212" ("cw and ccw belong before a circle, but this is " <> Type.describe t))
       { fixes = [Fix.removal "Leave the word out." region],
         hints = maybe [] pure (traversalHint t)
       }
-  NotAnElement region t ->
-    (at region "E0213" (Type.describe t <> " cannot be an element of a contour"))
+  NotAnElement region t term ->
+    ( at
+        region
+        "E0213"
+        ( case ErrorFix.words term of
+            Just written ->
+              quote written <> ", " <> Type.describe t <> ", cannot be an element of a contour"
+            Nothing -> Type.describe t <> " cannot be an element of a contour"
+        )
+    )
       { message =
           [ "A contour leads along lines, circles, curves and open contours, and through \
             \points."
           ],
-        hints =
-          ["Put the items of a list into a contour with: for p in list { p }" | ListOf _ <- [t]]
-            <> [ "Lay a curve through its points, for example spline(t) for a table t."
-                 | Table _ <- [t]
-               ]
+        fixes = ErrorFix.listFixes region t,
+        hints = ["If two numbers are a point, write them in brackets: (40, 0)." | Quantity _ <- [t]]
       }
   NoPart region ->
     (at region "E0215" "the program does not begin with ‘part’")
@@ -278,156 +347,107 @@ toReport err = case err of
     (at region "E0216" (settingWord setting <> " is set twice"))
       { label = "set again here",
         others = [Label before "first set here"],
-        fixes = [Fix.proposed (Fix.removal "Leave the second one out." region)]
+        fixes =
+          [ Fix.proposed (Fix.removal "Leave the second one out." region),
+            Fix.proposed (Fix.removal "Leave the first one out." before)
+          ]
       }
-  SettingsMissing region missing ->
+  SettingsMissing region keyword missing ->
     ( at
         region
         "E0217"
-        ( joinedWords (NonEmpty.toList (fmap settingWord missing))
-            <> (if length missing == 1 then " is" else " are")
-            <> " not given"
+        ( quote keyword
+            <> " needs "
+            <> joinedWords (map (settingWord . fst) (NonEmpty.toList missing))
+            <> " above it"
         )
     )
       { label = "needed here",
+        fixes =
+          [ Fix.proposed
+              ( Fix.joined
+                  "Move what is given below above this statement."
+                  [Fix.move "" below (start region) | (_, Just below) <- NonEmpty.toList missing]
+              )
+            | all (isJust . snd) missing
+          ],
         hints =
-          [ "Say before it, for example: "
-              <> Text.intercalate "; " (NonEmpty.toList (fmap example missing))
+          [ "Write above it, for example: " <> Text.intercalate "; " (map (example . fst) absent)
+            | let absent = NonEmpty.filter (isNothing . snd) missing,
+              not (null absent)
           ]
       }
-  NoForm region name given known ->
+  NoForm region name given known misfits changes commas ->
     ( at
         region
         "E0218"
         (quote name <> " does not take " <> joinedWords (map (Type.describe . snd) given))
     )
       { others = [Label r (Type.describe t) | (r, t) <- given],
+        fixes =
+          ErrorFix.decimalFixes commas
+            <> map changeFix (take 4 changes)
+            <> nub
+              [ fix
+                | (r, wanted, found) <- misfits,
+                  fix <- ErrorFix.mismatchFixes r wanted found ErrorFix.unwritten
+              ],
         hints = formsHint known
       }
-  NoSuchCall region name known ->
-    (at region "E0219" (quote name <> " is not called like this"))
-      { hints = formsHint known
+  NoSuchCall region name known changes unlabelled commas ->
+    ( at
+        region
+        "E0219"
+        ( case unlabelled of
+            Just (given, _) -> quote name <> " does not take " <> arguments (length given)
+            Nothing -> quote name <> " does not take these words before its arguments"
+        )
+    )
+      { fixes =
+          ErrorFix.decimalFixes commas
+            <> map changeFix (take 4 changes)
+            <> maybe
+              []
+              (\(given, parameters) -> ErrorFix.argumentFixes parameters given)
+              unlabelled,
+        hints = formsHint known
       }
-  NotInBlock region word ->
-    (at region "E0220" (quote word <> " does not belong in a block"))
-      { hints = ["It holds for the whole program: move it above the block."]
+  NotInBlock region word (StatementMove statement offset) ->
+    (at region "E0220" (quote word <> " applies to the whole program and cannot be in braces"))
+      { fixes = [Fix.proposed (Fix.move "Move it above the braces." statement offset)]
       }
   ForeignSetting region setting statement known ->
     (at region "E0221" (quote statement <> " has no setting " <> quote setting))
       { message = ["It has: " <> Text.intercalate ", " known <> "."],
         fixes = [Fix.proposed (Fix.removal "Leave it out." region)],
         hints =
-          [ "The depth of the holes stands before the braces: drill at P depth 10"
+          [ "Write the depth of the holes before the braces: drill at P depth 10"
             | setting == "depth",
               statement == "drill"
           ]
       }
   RepeatedSetting region setting before ->
     (at region "E0222" (quote setting <> " is given twice"))
-      { others = [Label before "first given here"]
-      }
-  HeadingsMissing region ->
-    (at region "E0224" "the first line of a table names its columns")
-      { hints = ["Write above the numbers, for example: x y mu deg H"]
-      }
-  HeadingsRepeated region ->
-    (at region "E0224" "the columns of this table are named already")
-      { hints =
-          ["A row has a number for each column; a value in words stands in brackets: (2 * h)."]
-      }
-  ColumnTwice region (Name name) before ->
-    (at region "E0225" ("the table has two columns " <> quote name))
-      { others = [Label before "the first one"]
-      }
-  ColumnMissing region (Name name) ->
-    (at region "E0225" ("the table has no column " <> quote name))
-      { hints = ["Every table has columns x and y; others may follow."]
-      }
-  RowLength region number columns cells ->
-    ( at
-        region
-        "E0226"
-        ( "row "
-            <> Decimal.whole number
-            <> " has "
-            <> counted cells "cell"
-            <> ", but the table has "
-            <> counted columns "column"
-        )
-    )
-      { hints =
-          [ "A row stands on one line. A value that is no plain number stands in brackets: (2 \
-            \* h)."
-          ]
-      }
-  NoSuchCipher region digit ->
-    (at region "E0227" ("there is no cipher " <> digit))
-      { message =
-          [ "This was control stop 14441 of the Minsk-22 system: the cipher is not provided \
-            \for."
-          ],
-        hints =
-          [ "One digit at a time: cipher "
-              <> Text.intercalate ", " [Text.singleton d <> "(…)" | d <- Text.unpack digit]
-            | isSeveralCiphers digit
-          ]
-            <> [ "The ciphers are 1 (a distance that changes uniformly), 2 (one distance), 4 \
-                 \(bevel and height), 6 (a distance at each point)."
-               ]
-      }
-  CipherMisfit region digit count ->
-    (at region "E0228" ("cipher " <> digit <> " does not work with " <> counted count "value"))
-      { message =
-          [ "This was control stop 14623 of the Minsk-22 system: the piece has no data for \
-            \the cipher."
-          ],
-        hints = ["Write " <> Text.intercalate ", or " (cipherForms digit) <> "."]
-      }
-  ColumnForWholePiece region digit (Name name) ->
-    ( at
-        region
-        "E0228"
-        ( "cipher "
-            <> digit
-            <> " takes one value here for the whole piece, and "
-            <> quote name
-            <> " is a column"
-        )
-    )
-      { message =
-          [ "This was control stop 14623 of the Minsk-22 system: the piece has no data for \
-            \the cipher."
-          ],
-        hints = ["For a distance at each point write 6(" <> name <> ")." | digit == "2"]
-      }
-  NoColumn region (Name name) columns ->
-    (at region "E0229" ("the curve has no column " <> quote name))
-      { message =
-          [ "This was control stop 14623 of the Minsk-22 system: the piece has no data for \
-            \the cipher."
-          ],
+      { others = [Label before "first given here"],
         fixes =
-          [ Fix.exchange ("Write " <> quote w <> ".") region w
-            | w <- take 1 (Name.nearest name columns)
-          ],
-        hints = case (Name.nearest name columns, columns) of
-          (_ : _, _) -> []
-          ([], []) ->
-            [ "Only a curve through a table with more columns than x and y has values at its \
-              \points; the first line of the table names them."
-            ]
-          ([], _) -> ["Its columns are " <> Text.intercalate ", " columns <> "."]
+          [ Fix.proposed (Fix.removal "Leave the second one out." region),
+            Fix.proposed (Fix.removal "Leave the first one out." before)
+          ]
       }
-  WithinWithoutEquality region ->
-    (at region "E0223" "‘within’ needs two values that are to be equal")
-      { hints = ["Write: assert a = b within d"]
+  InPiece e -> PieceError.toReport e
+  WithinWithoutEquality region tolerance operator ->
+    (at region "E0223" "‘within’ belongs after two values that are to be equal")
+      { fixes =
+          [Fix.proposed (Fix.removal "Leave the tolerance out." tolerance)]
+            <> [ Fix.proposed (Fix.exchange "Compare with =." between " = ")
+                 | Just between <- [operator]
+               ]
       }
   Recursive region (Name name) ->
     (at region "E0214" (quote name <> " is used in its own definition"))
       { message =
-          [ "Every program must come to an end, so a definition uses only what stands above \
-            \it."
-          ]
+          ["Every program must come to an end, so a definition uses only what is above it."],
+        hints = ["Give a corrected value a name of its own."]
       }
 
 -- | The hint that says in which direction a contour traverses an element of the type @t@. 'Nothing'
@@ -441,26 +461,6 @@ traversalHint t = case t of
     Just "A contour is traversed from its start to its end; for the reverse, write reversed(c)."
   _ -> Nothing
 
--- | Does a number such as @24@ consist of the digits of several ciphers, written as one word?
-isSeveralCiphers :: Text -> Bool
-isSeveralCiphers digit = Text.length digit > 1 && Text.all (`elem` ['1', '2', '4', '6']) digit
-
--- | The ways to write the cipher with the given digit, for hints.
-cipherForms :: Text -> [Text]
-cipherForms digit = case digit of
-  "1" ->
-    [ "1(from, to)",
-      "1(from, to, mu)",
-      "1(from, to, start_point, end_point)",
-      "1(from, to, mu, start_point, end_point)"
-    ]
-  "2" -> ["2(distance)", "2(distance, mu)"]
-  "4" -> ["4(mu, height)", "4(mu, height, allowance)"]
-  _ -> ["6(distance)", "6(distance, mu)"]
-
-counted :: Int -> Text -> Text
-counted n thing = Decimal.whole n <> " " <> thing <> (if n == 1 then "" else "s")
-
 at :: Region -> ReportCode -> Text -> Report
 at region code = report Error code (InSource region)
 
@@ -473,12 +473,21 @@ decidedLabels :: [(Region, Type)] -> [Label]
 decidedLabels elsewhere =
   [Label r (Type.describe t <> ", since it is used as one here") | (r, t) <- elsewhere]
 
--- | The word for an operation, with its article.
-operationWords :: UndefinedOperation -> Text
-operationWords operation = case operation of
-  UndefinedNegation -> "a minus"
-  UndefinedProduct -> "a product"
-  UndefinedQuotient -> "a quotient"
+-- | The operands of a sum or a comparison as the subject of a sentence.
+operands :: Maybe (WrittenTerm, WrittenTerm) -> Text
+operands terms = case terms of
+  Just (a, b)
+    | Just left <- ErrorFix.words a,
+      Just right <- ErrorFix.words b ->
+      quote left <> " and " <> quote right
+  _ -> "these values"
+
+-- | The title of the report of an operation that is not defined for operands, which are described.
+operationTitle :: UndefinedOperation -> [Text] -> Text
+operationTitle operation described = case (operation, described) of
+  (UndefinedQuotient, [a, b]) -> a <> " cannot be divided by " <> b
+  (UndefinedProduct, [a, b]) -> a <> " cannot be multiplied by " <> b
+  (_, _) -> Text.intercalate " and " described <> " cannot have a minus sign"
 
 mismatchHint :: Type -> Type -> [Text]
 mismatchHint expected found
@@ -487,26 +496,27 @@ mismatchHint expected found
     ["The root is taken of a number, of an area, or of another product of two equal quantities."]
   | otherwise = []
 
--- | Fixes that give an expression the type that is needed.
-mismatchFixes :: Region -> Type -> Type -> [Fix]
-mismatchFixes region expected found = map Fix.proposed (wrapped region expected found)
+-- | Names the letters of the other alphabet in a name that looks like a known one.
+lookAlikeHint :: Text -> [Text] -> [Text]
+lookAlikeHint name known =
+  [ "In "
+      <> quote name
+      <> " the letter "
+      <> quote (Text.singleton a)
+      <> " is "
+      <> (if a > '~' then "Cyrillic" else "Latin")
+      <> "."
+    | w <- take 1 (Name.lookAlike name known),
+      (a, _) <- take 1 (filter (uncurry (/=)) (Text.zip name w))
+  ]
 
-wrapped :: Region -> Type -> Type -> [Fix]
-wrapped region expected found
-  | expected == Type.angle && found == Type.number =
-    [ Fix.enclosure "Multiply the number by 1 deg, if it is in degrees." "(" region ") * 1 deg",
-      Fix.enclosure "Multiply the number by 1 rad, if it is in radians." "(" region ") * 1 rad"
-    ]
-  | expected == Type.number && found == Type.angle =
-    [Fix.enclosure "Divide the angle by 1 rad: a number of radians." "(" region ") / 1 rad"]
-  | expected == Type.len && found == Type.number =
-    [Fix.enclosure "Multiply the number by 1 mm." "(" region ") * 1 mm"]
-  | expected == Type.number && found == Type.len =
-    [Fix.enclosure "Divide the length by 1 mm." "(" region ") / 1 mm"]
-  | Table _ <- found,
-    expected == ListOf Type.aPoint =
-    [Fix.enclosure "Take the points of the table." "points_of(" region ")"]
-  | otherwise = []
+-- | Fix that changes the word before an argument.
+changeFix :: LabelChange -> Fix
+changeFix (LabelChange r new) = Fix.proposed (Fix.exchange title r new)
+  where
+    title
+      | Text.null new = "Leave this word out."
+      | otherwise = "Write " <> Text.strip new <> " before this argument."
 
 settingWord :: RequiredSetting -> Text
 settingWord setting = case setting of

@@ -22,9 +22,21 @@ import Base.Name (Name (..))
 import Base.Region (Located (..), Region (..))
 import Checked.Builtin (ArgumentLabel, Form (..))
 import Checked.Builtin qualified as Builtin
+import Checked.Call
+  ( Call (..),
+    argumentValues,
+    labelChanges,
+    labelOf,
+    nearestForm,
+    placeholders,
+    unlabelled,
+    withLabels,
+  )
 import Checked.Deferred (Deferred, resolveAll)
 import Checked.Dimension qualified as Dimension
 import Checked.Error (Error (..))
+import Checked.ErrorFix (unwritten)
+import Checked.ErrorFix qualified as ErrorFix
 import Checked.Inference (Infer)
 import Checked.Inference qualified as Inference
 import Checked.Inference.Fast qualified as FastInference
@@ -48,7 +60,7 @@ import Data.Maybe (isJust)
 import Data.Text (Text)
 import Surface.Keyword qualified as Keyword
 import Surface.Syntax qualified as Surface
-import Surface.Token (Numeral (..), Unit)
+import Surface.Token (Numeral (..), Unit (..))
 
 -- | The facts about a program that are needed to check its expressions.
 data TypingEnvironment = TypingEnvironment
@@ -88,7 +100,12 @@ isEqual at wanted t = do
   wanted' <- Inference.resolved wanted
   elsewhere <- Inference.decidedElsewhere [(at, t, found), (at, wanted, wanted')]
   same <- Inference.unify at wanted t
-  unless same (Inference.mistakeOnce (map fst elsewhere) (Mismatch at wanted' found elsewhere))
+  unless
+    same
+    ( Inference.mistakeOnce
+        (map fst elsewhere)
+        (Mismatch at wanted' found elsewhere unwritten)
+    )
   pure same
 
 -- | Checks an expression that must be a point of the plane or a point with a height.
@@ -119,10 +136,11 @@ contourElement ::
 contourElement env sense e = case (sense, value e) of
   (Nothing, Surface.Pair _ _) -> (Type.aPoint,) <$> expect env Type.aPoint e
   _ -> do
-    found <- fastCall env e
-    (t, e') <- case found of
-      Just c -> pure (FastInference.resultType c, FastInference.checkedCall c)
-      Nothing -> infer env e
+    (t, e') <- Inference.wrongIfTainted $ do
+      found <- fastCall env e
+      case found of
+        Just c -> pure (FastInference.resultType c, FastInference.checkedCall c)
+        Nothing -> infer env e
     t' <- Inference.resolved t
     case (t', sense) of
       (Type.Circle, Nothing) -> Inference.mistake (SenseMissing (region e))
@@ -137,7 +155,7 @@ contourElement env sense e = case (sense, value e) of
       (Type.Spatial _, Just w) -> Inference.mistake (SenseUnneeded (region w) t')
       (Type.Variable _, Just _) -> equal (region e) Type.Circle t
       (Type.Wrong, _) -> pure ()
-      _ -> Inference.mistake (NotAnElement (region e) t')
+      _ -> Inference.mistake (NotAnElement (region e) t' unwritten)
     pure (t, e')
 
 -- | Checks a call by "Checked.Inference.Fast". 'Nothing' if that module leaves the call to full
@@ -147,9 +165,19 @@ fastCall env e = if isFast env then FastInference.call (expect env) e else pure 
 
 -- Expressions whose type is inferred
 
--- | Checks an expression whose type is not known in advance, and infers its type.
+-- | Checks an expression whose type is not known in advance, and infers its type. A mistake in a
+-- part of a call or an operation makes the whole of it wrong.
 infer :: TypingEnvironment -> Surface.Expr -> Infer Typed
-infer env located@(Located at e) = case e of
+infer env e = case value e of
+  Surface.Call _ _ -> Inference.wrongIfTainted (inferred env e)
+  Surface.Negate _ -> Inference.wrongIfTainted (inferred env e)
+  Surface.Binary {} -> Inference.wrongIfTainted (inferred env e)
+  Surface.If {} -> Inference.wrongIfTainted (inferred env e)
+  Surface.Each {} -> Inference.wrongIfTainted (inferred env e)
+  _ -> inferred env e
+
+inferred :: TypingEnvironment -> Surface.Expr -> Infer Typed
+inferred env located@(Located at e) = case e of
   Surface.Literal (Numeral _ x) unit -> literal at x unit
   Surface.Variable name -> variable env at name
   Surface.Call name arguments -> do
@@ -231,10 +259,19 @@ binary env at op l r
     pure (Type.Boolean, \sol -> Located at (Checked.Binary op (l' sol) (r' sol)))
   | otherwise = do
     (lt, l') <- infer env l
-    (rt, r') <- infer env r
+    (rt, r') <- divisor env op l r
     when (op `elem` [Surface.Multiply, Surface.Divide]) (plainFactor op (l, lt) (r, rt))
     result <- operation at op (region l, lt) (region r, rt)
     pure (result, \sol -> Located at (Checked.Binary op (l' sol) (r' sol)))
+
+-- | Checks the right operand of an operation. In @60 mm / min@ it is the name of a function, and
+-- the report says how the unit is written.
+divisor :: TypingEnvironment -> Surface.Operator -> Surface.Expr -> Surface.Expr -> Infer Typed
+divisor env op l r = case (op, value l, value r) of
+  (Surface.Divide, Surface.Literal _ (Just unit), Surface.Variable (Name "min"))
+    | unit `elem` [Millimetre, Metre, Inch] ->
+      wrongTerm (region r) (FunctionAsValue (region r) (Name "min") [] (Just (end (region l))))
+  _ -> infer env r
 
 -- | Decides that an operand of a product or a quotient is a plain number, if it consists of
 -- literals without units and the other operand does not. A divisor of this kind is always a plain
@@ -295,11 +332,16 @@ range env at low high step = do
 -- the checked list.
 repetition :: TypingEnvironment -> Located Name -> Surface.Expr -> Infer Typed
 repetition env counter@(Located _ (Name text)) list = do
-  when (isBuiltin text) (Inference.mistake (NameTaken (region counter) (value counter)))
+  when
+    (isBuiltin text)
+    ( Inference.mistake
+        (NameTaken (region counter) (value counter) unwritten [])
+    )
   t <- Inference.freshType
   (found, list') <- infer env list
+  found' <- Inference.resolved found
   isList <- isEqual (region list) (Type.ListOf t) found
-  pure (if isList then t else Type.Wrong, list')
+  pure (if isList && found' /= Type.Wrong then t else Type.Wrong, list')
 
 -- | Is this the name of a function or a constant of the language?
 isBuiltin :: Text -> Bool
@@ -316,7 +358,7 @@ variable env at name@(Name text) = do
     Just (Local definedAt t) -> local definedAt t
     Just (Function definedAt parameters scheme) -> do
       Inference.mention at (Just definedAt) text (Inference.Callable parameters scheme)
-      wrongTerm at (FunctionAsValue at name [Builtin.callText text parameters])
+      wrongTerm at (FunctionAsValue at name [Builtin.callText text parameters] Nothing)
     Just (Poisoned _) -> wrong at <$ Inference.taint
     Nothing -> case Builtin.lookup text of
       Just builtin -> do
@@ -324,24 +366,25 @@ variable env at name@(Name text) = do
         unknowns <- freshUnknowns
         case Builtin.forms unknowns builtin of
           [Form [] t] -> pure (t, const (Located at (Checked.Builtin builtin [])))
-          _ -> wrongTerm at (FunctionAsValue at name (Builtin.formTexts builtin))
-      Nothing -> unknownName env at name >>= wrongTerm at
+          _ -> wrongTerm at (FunctionAsValue at name (Builtin.formTexts builtin) Nothing)
+      Nothing -> unknownName env UndefinedName at name >>= wrongTerm at
   where
     local definedAt t = do
       Inference.mention at (Just definedAt) text (Inference.Valued t)
       pure (t, const (Located at (Checked.Variable name)))
 
 -- | The error for a name that is not in scope. The name is defined only below, or is used in its
--- own definition, or is not defined at all.
-unknownName :: TypingEnvironment -> Region -> Name -> Infer Error
-unknownName env at name = do
+-- own definition, or is not defined at all. @undefined'@ makes the error for the last case.
+unknownName ::
+  TypingEnvironment -> (Region -> Name -> [Text] -> Error) -> Region -> Name -> Infer Error
+unknownName env undefined' at name = do
   names <- Inference.namesInScope
   pure $ case Map.lookup name (definitions env) of
     Just definedAt
-      | start definedAt > start at -> UsedBeforeDefinition at name definedAt
+      | start definedAt > start at -> UsedBeforeDefinition at name definedAt Nothing
       | otherwise -> Recursive at name
     Nothing ->
-      UndefinedName at name ([text | Name text <- names] <> Builtin.names <> Keyword.reservedWords)
+      undefined' at name ([text | Name text <- names] <> Builtin.names <> Keyword.reservedWords)
 
 -- | A term that takes the place of a term that is reported as wrong.
 wrong :: Region -> Typed
@@ -360,13 +403,6 @@ freshUnknowns = do
 
 -- Calls
 
--- | A call as the program writes it.
-data Call = Call
-  { callRegion :: Region,
-    callee :: Located Name,
-    written :: [Surface.Argument]
-  }
-
 -- | Checks a call of a function of the program or of the language.
 call :: TypingEnvironment -> Region -> Located Name -> NonEmpty Surface.Argument -> Infer Typed
 call env at callee@(Located nameRegion name@(Name text)) arguments = do
@@ -375,12 +411,12 @@ call env at callee@(Located nameRegion name@(Name text)) arguments = do
     Just (Function definedAt parameters scheme) -> do
       Inference.mention nameRegion (Just definedAt) text (Inference.Callable parameters scheme)
       functionCall env this parameters scheme
-    Just (Value before _) -> wrongCall env this (NotAFunction nameRegion name (Just before))
-    Just (Local before _) -> wrongCall env this (NotAFunction nameRegion name (Just before))
+    Just (Value before _) -> wrongCall env this (noFunction (Just before))
+    Just (Local before _) -> wrongCall env this (noFunction (Just before))
     Just (Poisoned _) -> wrong at <$ (checkArguments env this *> Inference.taint)
     Nothing -> case Builtin.lookup text of
       Just builtin
-        | Builtin.isConstant builtin -> wrongCall env this (NotAFunction nameRegion name Nothing)
+        | Builtin.isConstant builtin -> wrongCall env this (noFunction Nothing)
         | otherwise -> do
           Inference.mention
             nameRegion
@@ -388,8 +424,9 @@ call env at callee@(Located nameRegion name@(Name text)) arguments = do
             text
             (Inference.Described (Builtin.description builtin))
           builtinCall env this builtin
-      Nothing -> unknownName env nameRegion name >>= wrongCall env this
+      Nothing -> unknownName env UndefinedFunction nameRegion name >>= wrongCall env this
   where
+    noFunction before = NotAFunction nameRegion name before (length arguments)
     this = Call {callRegion = at, callee, written = NonEmpty.toList arguments}
 
 -- | Reports the mistake @e@ in a call. Also checks the arguments, so that mistakes in them are
@@ -409,17 +446,27 @@ functionCall env c parameters scheme = do
   case unlabelled c of
     Just es
       | length es == length types -> do
-        checked <- zipWithM (argument env) types es
+        checked <- checkedArguments env c (Builtin.callText text parameters) types es
         constraints
         pure
           ( if all fst checked then t else Type.Wrong,
             \sol ->
               Located at (Checked.Apply name (NonEmpty.fromList (map (($ sol) . snd) checked)))
           )
-    _ -> wrongCall env c (ArgumentCount at name parameters (length (written c)))
+    _ ->
+      wrongCall
+        env
+        c
+        ( ArgumentCount
+            at
+            name
+            (zip parameters (map ErrorFix.placeholder types))
+            (map region (argumentValues c))
+            []
+        )
   where
     at = callRegion c
-    name = value (callee c)
+    name@(Name text) = value (callee c)
 
 -- | Checks a call of a function of the language. A form is one list of parameters with the type of
 -- the result. A form fits the labels of the call if its parameters have these labels. If no form
@@ -433,13 +480,16 @@ builtinCall env c builtin = do
       isOnlyForm = null (drop 1 forms)
   case (Builtin.labelled unknowns builtin labels, forms, unlabelled c) of
     ([], [form], Just es) ->
-      wrongCall
-        env
-        c
-        (ArgumentCount at name (map Builtin.title (Builtin.parameters form)) (length es))
-    ([], _, _) -> wrongCall env c (NoSuchCall at text (Builtin.formTexts builtin))
+      wrongCall env c (ArgumentCount at name (placeholders form) (map region es) [])
+    ([], _, _) -> noSuchCall env c builtin forms
     ([form], _, _) | isOnlyForm || any (/= Builtin.NoLabel) labels -> do
-      checked <- zipWithM (argument env) (valueTypes form) (argumentValues c)
+      checked <-
+        checkedArguments
+          env
+          c
+          (Builtin.formText builtin form)
+          (valueTypes form)
+          (argumentValues c)
       pure
         ( if all fst checked then Builtin.result form else Type.Wrong,
           term (map snd checked)
@@ -450,12 +500,32 @@ builtinCall env c builtin = do
       pure (t, term (map snd checked))
   where
     at = callRegion c
-    Located _ name@(Name text) = callee c
+    name = value (callee c)
     labels = map labelOf (written c)
-    valueTypes form =
-      [Builtin.type' p | p <- Builtin.parameters form, Builtin.label p /= Builtin.Rank]
     term values sol =
       Located at (Checked.Builtin builtin (withLabels (written c) (map ($ sol) values)))
+
+-- | Reports a call that has the labels of none of the given forms.
+noSuchCall :: TypingEnvironment -> Call -> Checked.Builtin -> [Form] -> Infer Typed
+noSuchCall env c builtin forms = do
+  types <- mapM (infer env) (argumentValues c) >>= mapM (Inference.resolved . fst)
+  let isFitting = and . zipWith Inference.isCompatible types . valueTypes
+      nearest es = (map region es, nearestForm (length es) forms)
+  wrongTerm
+    (callRegion c)
+    ( NoSuchCall
+        (callRegion c)
+        (Builtin.name builtin)
+        (Builtin.formTexts builtin)
+        (labelChanges c (filter isFitting forms))
+        (nearest <$> unlabelled c)
+        []
+    )
+
+-- | The types of the parameters of a form that take a value.
+valueTypes :: Form -> [Type]
+valueTypes form =
+  [Builtin.type' p | p <- Builtin.parameters form, Builtin.label p /= Builtin.Rank]
 
 -- | Adds the deferred constraint of a call of a function with several forms, and yields the type of
 -- its result. @types@ are the types of the arguments that have a value.
@@ -482,43 +552,26 @@ fastCallType at c
   | FastInference.isOverloaded c = Inference.freshDecided at (FastInference.resultType c)
   | otherwise = pure (FastInference.resultType c)
 
--- | Checks an argument whose parameter has the type @wanted@. The flag is false if the argument has
--- another type, which is then reported.
-argument :: TypingEnvironment -> Type -> Surface.Expr -> Infer (Bool, Deferred Checked.Expr)
-argument env wanted e = do
-  (t, e') <- infer env e
-  agrees <- isEqual (region e) wanted t
-  pure (agrees, e')
-
--- | The arguments of a call. 'Nothing' if one of them has a label, such as @near@.
-unlabelled :: Call -> Maybe [Surface.Expr]
-unlabelled c = traverse given (written c)
-  where
-    given a = case a of
-      Surface.Given e -> Just e
-      Surface.Chosen _ _ -> Nothing
-      Surface.Ranked _ -> Nothing
-
-labelOf :: Surface.Argument -> ArgumentLabel
-labelOf a = case a of
-  Surface.Given _ -> Builtin.NoLabel
-  Surface.Chosen word _ -> Builtin.Word (value word)
-  Surface.Ranked _ -> Builtin.Rank
-
--- | The values of the arguments of a call. The labels @first@ and @last@ have no value.
-argumentValues :: Call -> [Surface.Expr]
-argumentValues c = concatMap valueOf (written c)
-  where
-    valueOf a = case a of
-      Surface.Given e -> [e]
-      Surface.Chosen _ e -> [e]
-      Surface.Ranked _ -> []
-
--- | The arguments of a checked call: the checked values @vs@, with the labels of the written
--- arguments @as@.
-withLabels :: [Surface.Argument] -> [Checked.Expr] -> [Checked.Argument]
-withLabels as vs = case (as, vs) of
-  (Surface.Given _ : more, v : rest) -> Checked.Given v : withLabels more rest
-  (Surface.Chosen word _ : more, v : rest) -> Checked.Chosen (value word) v : withLabels more rest
-  (Surface.Ranked rank : more, _) -> Checked.Ranked (value rank) : withLabels more vs
-  _ -> []
+-- | Checks the arguments @es@ of a call, whose parameters have the given types. A flag is false if
+-- its argument has another type, which is then reported. If two arguments are in the wrong order,
+-- this is reported, with the right order as the call @form@.
+checkedArguments ::
+  TypingEnvironment ->
+  Call ->
+  Text ->
+  [Type] ->
+  [Surface.Expr] ->
+  Infer [(Bool, Deferred Checked.Expr)]
+checkedArguments env c form types es = do
+  checked <- mapM (infer env) es
+  found <- mapM (Inference.resolved . fst) checked
+  case Inference.exchanged found types of
+    Just order -> do
+      Inference.mistake
+        (Swapped (callRegion c) (value (callee c)) (zip (map region es) found) form order)
+      pure [(False, e') | (_, e') <- checked]
+    Nothing ->
+      zipWithM
+        (\wanted (e, (t, e')) -> (,e') <$> isEqual (region e) wanted t)
+        types
+        (zip es checked)

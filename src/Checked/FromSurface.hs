@@ -17,6 +17,8 @@ import Checked.Contour (item)
 import Checked.Deferred (Deferred, resolveAll)
 import Checked.Dimension qualified as Dimension
 import Checked.Error (Error (..))
+import Checked.ErrorContext qualified as ErrorContext
+import Checked.ErrorFix (unwritten)
 import Checked.Expression
   ( TypingEnvironment (..),
     expect,
@@ -60,7 +62,9 @@ checkBy :: Bool -> Surface.Program -> Result w Error Program
 checkBy isFast Surface.Program {Surface.statements = written} =
   Result
     { warnings = [],
-      errors = RequiredSetting.check written <> filter (not . isExcused) found,
+      errors =
+        RequiredSetting.check written
+          <> ErrorContext.complete written (filter (not . isExcused) found),
       output = Just program
     }
   where
@@ -84,6 +88,7 @@ checkBy isFast Surface.Program {Surface.statements = written} =
 isUndefinedName :: Error -> Bool
 isUndefinedName e = case e of
   UndefinedName {} -> True
+  UndefinedFunction {} -> True
   _ -> False
 
 -- | The names that the statements define, with the regions of their first definitions. Definitions
@@ -247,7 +252,7 @@ reportRepeated names = case names of
   [] -> pure ()
   n : rest -> do
     mapM_
-      (\again -> Inference.mistake (DefinedTwice (region again) (value n) (region n)))
+      (\again -> Inference.mistake (DefinedTwice (region again) (value n) (region n) unwritten))
       (take 1 (filter ((== value n) . value) rest))
     reportRepeated rest
 
@@ -259,8 +264,17 @@ contourDefinition ::
   [Surface.Item] ->
   Infer (Maybe (Deferred Checked.Statement_))
 contourDefinition env name closure items = do
-  checked <- defining name (const (Value (region name) Type.Contour)) (mapM (item env) items)
+  checked <- defining name (const (Value (region name) Type.Contour)) (mapM (item env) sound)
   pure ((\items' sol -> Checked.Contour name closure (resolveAll sol items')) <$> checked)
+  where
+    -- Beside a broken item, a number is a part of it, such as a coordinate without its brackets.
+    sound = if any isBroken items then filter (not . isNumber) items else items
+    isBroken (Located _ i) = case i of
+      Surface.BrokenItem _ -> True
+      _ -> False
+    isNumber (Located _ i) = case i of
+      Surface.Element _ (Located _ (Surface.Literal _ _)) _ _ -> True
+      _ -> False
 
 -- | Checks the definition of a table, and binds its name. The lines of a table from a file have
 -- been read before this pass.
@@ -324,9 +338,9 @@ reportTaken :: Located Name -> Infer ()
 reportTaken located@(Located at name) = do
   binding <- Inference.find name
   case binding of
-    Just (Value before _) -> Inference.mistake (DefinedTwice at name before)
-    Just (Function before _ _) -> Inference.mistake (DefinedTwice at name before)
-    Just (Poisoned before) -> Inference.mistake (DefinedTwice at name before)
+    Just (Value before _) -> Inference.mistake (DefinedTwice at name before unwritten)
+    Just (Function before _ _) -> Inference.mistake (DefinedTwice at name before unwritten)
+    Just (Poisoned before) -> Inference.mistake (DefinedTwice at name before unwritten)
     Just (Local _ _) -> pure ()
     Nothing -> pure ()
   reportBuiltin located
@@ -334,7 +348,7 @@ reportTaken located@(Located at name) = do
 -- | Reports a name that belongs to the language.
 reportBuiltin :: Located Name -> Infer ()
 reportBuiltin (Located at name@(Name text)) =
-  when (isBuiltin text) (Inference.mistake (NameTaken at name))
+  when (isBuiltin text) (Inference.mistake (NameTaken at name unwritten []))
 
 -- | Records the mention of a name in its definition, for editors.
 mentionDefinition :: Located Name -> Inference.Meaning -> Infer ()
@@ -425,7 +439,12 @@ assertion env e within = case (value e, within) of
     d <- Type.dimensionOf <$> Inference.resolved t
     pure (\sol -> Checked.Compares (sol d) (region e) op (l' sol) (r' sol))
   (_, Just d) -> do
-    Inference.mistake (WithinWithoutEquality (region d))
+    Inference.mistake
+      ( WithinWithoutEquality
+          (region d)
+          (Region (end (region e)) (end (region d)))
+          (betweenOperands e)
+      )
     (Checked.Holds .) . snd <$> infer env e
   (_, Nothing) -> (Checked.Holds .) <$> expect env Type.Boolean e
   where
@@ -434,5 +453,10 @@ assertion env e within = case (value e, within) of
       (rt, r') <- infer env r
       _ <- operation (region e) op (region l, lt) (region r, rt)
       pure (lt, l', r')
+    betweenOperands x = case value x of
+      Surface.Binary op l r
+        | op `elem` inequalities ->
+          Just (Region (end (region l)) (start (region r)))
+      _ -> Nothing
     inequalities =
       [Surface.Less, Surface.AtMost, Surface.Greater, Surface.AtLeast, Surface.Unequal]

@@ -17,6 +17,7 @@ module Checked.Inference
     mistake,
     mistakeOnce,
     taint,
+    wrongIfTainted,
     separately,
 
     -- * Names
@@ -37,6 +38,8 @@ module Checked.Inference
 
     -- * Equations
     unify,
+    exchanged,
+    isCompatible,
 
     -- * Functions
     generalise,

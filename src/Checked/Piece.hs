@@ -27,9 +27,11 @@ import Checked.Builtin qualified as Builtin
 import Checked.Deferred (Deferred, resolveAll)
 import Checked.Dimension qualified as Dimension
 import Checked.Error (Error (..))
+import Checked.ErrorFix (unwritten)
 import Checked.Expression (TypingEnvironment, expect)
 import Checked.Inference (Infer)
 import Checked.Inference qualified as Inference
+import Checked.PieceError (PieceError (..))
 import Checked.Scheme (Binding (..))
 import Checked.Syntax (Cells, Columns (..))
 import Checked.Syntax qualified as Checked
@@ -60,14 +62,24 @@ table env name written = case written of
     mapM_ mentionColumn columns
     reportRepeated (map heading columns)
     mapM_ (reportConstant . heading) columns
-    unless (hasColumn "x" columns) (Inference.mistake (ColumnMissing at (Name "x")))
-    unless (hasColumn "y" columns) (Inference.mistake (ColumnMissing at (Name "y")))
+    unless (hasColumn "x" columns) (columnMissing at headings "x")
+    unless (hasColumn "y" columns) (columnMissing at headings "y")
     rows' <- rowsOf env columns rows
     pure (typeOfTable columns, columnsAndRows columns rows')
   Located _ Surface.BrokenLine : _ -> missing <$ Inference.taint
-  first : _ -> missing <$ Inference.mistake (HeadingsMissing (region first))
-  [] -> missing <$ Inference.mistake (HeadingsMissing (region name))
+  first : _ -> missing <$ mistake (HeadingsMissing (region first) (cellCount (value first)))
+  [] -> missing <$ mistake (HeadingsMissing (region name) 0)
   where
+    columnMissing at headings text =
+      mistake
+        ( ColumnMissing
+            at
+            (Name text)
+            [(region n, value n) | Surface.Heading n _ <- NonEmpty.toList headings]
+        )
+    cellCount line = case line of
+      Surface.Entries cells -> length cells
+      _ -> 0
     missing = (Type.Wrong, const (Columns [] []))
     hasColumn text = any ((== Name text) . value . heading)
 
@@ -79,7 +91,7 @@ column (Surface.Heading name unit) = case unit of
     let (t, factor) = Type.ofUnit u
     when
       (isCoordinate (value name) && t /= Type.len)
-      (Inference.mistake (Mismatch (region name) Type.len t []))
+      (mistake (CoordinateUnit (region name) (value name) t))
     pure (Column name t (Just factor))
   Nothing
     | isCoordinate (value name) -> pure (Column name Type.len Nothing)
@@ -108,7 +120,7 @@ reportRepeated :: [Located Name] -> Infer ()
 reportRepeated names = mapM_ report (zip [0 ..] names)
   where
     report (i, name) = case [n | n <- take i names, value n == value name] of
-      first : _ -> Inference.mistake (ColumnTwice (region name) (value name) (region first))
+      first : _ -> mistake (ColumnTwice (region name) (value name) (region first))
       [] -> pure ()
 
 -- | Reports a column that has the name of a constant of the language. In a value along a curve the
@@ -117,7 +129,7 @@ reportConstant :: Located Name -> Infer ()
 reportConstant (Located at name@(Name text)) =
   when
     (maybe False Builtin.isConstant (Builtin.lookup text))
-    (Inference.mistake (NameTaken at name))
+    (Inference.mistake (NameTaken at name unwritten []))
 
 -- | The type of a table that has the given columns.
 typeOfTable :: [Column] -> Type
@@ -194,26 +206,33 @@ rowsOf env columns = go 1 []
 -- that the line gives. 'Nothing' if the line contains a mistake.
 row :: TypingEnvironment -> [Column] -> Int -> Surface.TableLine -> Infer (Maybe Row)
 row env columns number (Located at line) = case line of
-  Surface.Header _ -> Nothing <$ Inference.mistake (HeadingsRepeated at)
+  Surface.Header headings ->
+    Nothing
+      <$ mistake (HeadingsRepeated at [region n | Surface.Heading n _ <- NonEmpty.toList headings])
   Surface.BrokenLine -> Nothing <$ Inference.taint
   Surface.Numbers numbers
     | NumberTable.width numbers /= length columns ->
       Nothing
         <$ mapM_
           ( \k ->
-              wrongLength (NumberTable.regionOf numbers k) (number + k) (NumberTable.width numbers)
+              wrongLength
+                (NumberTable.regionOf numbers k)
+                (number + k)
+                (NumberTable.width numbers)
+                []
           )
           [0 .. NumberTable.count numbers - 1]
     | otherwise -> pure (Just (Numbers numbers))
   Surface.Entries cells
-    | length cells /= length columns -> Nothing <$ wrongLength at number (length cells)
+    | length cells /= length columns ->
+      Nothing <$ wrongLength at number (length cells) (map region (NonEmpty.toList cells))
     | otherwise -> do
       cells' <- zipWithM (cell env) columns (NonEmpty.toList cells)
       let literals = PrimArray.primArrayFromList <$> traverse literalOf cells'
       pure $! Just $! maybe (Cells at cells') (Literals at) literals
   where
-    wrongLength rowRegion k count =
-      Inference.mistake (RowLength rowRegion k (length columns) count)
+    wrongLength rowRegion k count written =
+      mistake (RowLength rowRegion k (length columns) count written)
     literalOf c = case c of
       Literal _ x -> Just x
       Written _ -> Nothing
@@ -268,15 +287,16 @@ cipher ::
   Surface.Cipher ->
   Infer (Maybe (Deferred Checked.Cipher))
 cipher env known (Located at (Surface.Cipher (Located digitRegion digit) given)) =
-  case recalculation env columns (digits digit) (NonEmpty.toList given) of
+  case recalculation env columns (Located digitRegion (digits digit)) (NonEmpty.toList given) of
     Just checked
       | isNothing known -> Nothing <$ Inference.taint
       | otherwise -> Just . (Located at .) <$> checked
     Nothing
       | digits digit `elem` ["1", "2", "4", "6"] ->
-        Nothing <$ Inference.mistake (CipherMisfit at (digits digit) (length given))
-      | otherwise -> Nothing <$ Inference.mistake (NoSuchCipher digitRegion (digits digit))
+        Nothing <$ mistake (CipherMisfit at (digits digit) digitRegion values)
+      | otherwise -> Nothing <$ mistake (NoSuchCipher digitRegion (digits digit) at values)
   where
+    values = map region (NonEmpty.toList given)
     columns = fromMaybe [] known
 
 -- | Checks the values of a cipher with the given digit. 'Nothing' if there is no cipher with this
@@ -284,10 +304,10 @@ cipher env known (Located at (Surface.Cipher (Located digitRegion digit) given))
 recalculation ::
   TypingEnvironment ->
   [(Located Text, Type)] ->
-  Text ->
+  Located Text ->
   [Surface.Expr] ->
   Maybe (Infer (Deferred Checked.Cipher_))
-recalculation env columns digit values = case (digit, values) of
+recalculation env columns digit values = case (value digit, values) of
   ("1", [a, b]) -> Just (growing a b absent absent)
   ("1", [a, b, m]) -> Just (growing a b (present (angleAlong m)) absent)
   ("1", [a, b, p, q]) -> Just (growing a b absent (present (between p q)))
@@ -321,12 +341,12 @@ recalculation env columns digit values = case (digit, values) of
 constantLength ::
   TypingEnvironment ->
   [(Located Text, Type)] ->
-  Text ->
+  Located Text ->
   Surface.Expr ->
   Infer (Deferred Checked.Expr)
 constantLength env columns digit e =
   case [(r, n) | (r, n) <- freeNames e, n `elem` map (Name . value . fst) columns] of
-    (r, n) : _ -> zero e <$ Inference.mistake (ColumnForWholePiece r digit n)
+    (r, n) : _ -> zero e <$ mistake (ColumnForWholePiece r (value digit) (region digit) n)
     [] -> expect env Type.len e
 
 -- | Checks a value of type @t@ that may vary along a curve. It may name the columns of the curve's
@@ -339,7 +359,7 @@ valueAlong ::
   Infer (Deferred Checked.Expr)
 valueAlong env columns t e = do
   unknown <- catMaybes <$> traverse unknownName (freeNames e)
-  mapM_ (\(r, n) -> Inference.mistake (NoColumn r n (map (value . fst) columns))) unknown
+  mapM_ (\(r, n) -> mistake (NoColumn r n (map (value . fst) columns))) unknown
   if null unknown
     then withColumns columns (expect env t e)
     else pure (zero e)
@@ -374,6 +394,10 @@ freeNames (Located at e) = case e of
       Surface.Given x -> freeNames x
       Surface.Chosen _ x -> freeNames x
       Surface.Ranked _ -> []
+
+-- | Records a mistake in a table or a piece.
+mistake :: PieceError -> Infer ()
+mistake = Inference.mistake . InPiece
 
 -- Joggles
 

@@ -9,11 +9,12 @@ module Checked.RequiredSetting
 where
 
 import Base.Region (Located (..), Region (..))
-import Checked.Error (Error (..), RequiredSetting (..))
+import Checked.Error (Error (..), RequiredSetting (..), StatementMove (..))
 import Control.Applicative ((<|>))
 import Data.List.NonEmpty qualified as NonEmpty
 import Data.Map.Strict (Map)
 import Data.Map.Strict qualified as Map
+import Data.Maybe (isNothing, listToMaybe)
 import Data.Text (Text)
 import Data.Text qualified as Text
 import Surface.Syntax (Statement)
@@ -21,55 +22,88 @@ import Surface.Syntax qualified as Surface
 
 -- | Checks the statements of a program. The mistakes are in the order of the text.
 check :: [Statement] -> [Error]
-check statements = partFirst statements <> go Map.empty (concatMap (flatten False) statements)
+check statements = partFirst statements <> go Map.empty (concatMap (flatten Nothing) statements)
   where
     go seen ss = case ss of
-      s : rest | (seen', errors) <- step seen s -> seen' `seq` (errors <> go seen' rest)
+      s : rest | (seen', errors) <- step seen s rest -> seen' `seq` (errors <> go seen' rest)
       [] -> []
 
--- | Reports a program whose first statement is not @part@.
+-- | Reports a program whose first statement is not @part@. Broken statements do not count: one of
+-- them may be the statement that is missing.
 partFirst :: [Statement] -> [Error]
-partFirst statements = case statements of
+partFirst statements = case dropWhile isBroken statements of
   Located _ (Surface.Part _ _) : _ -> []
-  Located _ (Surface.Broken (Just "part") _) : _ -> []
-  Located at _ : _ -> [NoPart at {end = start at}]
-  [] -> [NoPart (Region 0 0)]
+  Located at _ : _ | not (any isBroken (take 1 statements)) -> [NoPart at {end = start at}]
+  _ -> [NoPart (Region 0 0) | null statements]
+  where
+    isBroken (Located _ s) = case s of
+      Surface.Broken _ _ -> True
+      _ -> False
+
+-- | A statement that may be in a block: the start of the outermost statement with a block around
+-- it, if there is one.
+type Placed = (Maybe Int, Statement)
 
 -- | The statements in the blocks of a statement; for a statement without blocks, the statement
--- itself. The flag of each result is true if it is in a block. @isInBlock@ is true if the given
--- statement is in a block.
-flatten :: Bool -> Statement -> [(Bool, Statement)]
-flatten isInBlock s = case s of
-  Located _ (Surface.Repeat _ _ body) -> concatMap (flatten True) body
-  Located _ (Surface.When _ body others) -> concatMap (flatten True) (body <> others)
-  Located _ (Surface.With _ body) -> concatMap (flatten True) body
-  _ -> [(isInBlock, s)]
+-- itself. @outer@ is the start of the outermost statement around it.
+flatten :: Maybe Int -> Statement -> [Placed]
+flatten outer s@(Located at _) = case s of
+  Located _ (Surface.Repeat _ _ body) -> concatMap (flatten top) body
+  Located _ (Surface.When _ body others) -> concatMap (flatten top) (body <> others)
+  Located _ (Surface.With _ body) -> concatMap (flatten top) body
+  _ -> [(outer, s)]
+  where
+    top = outer <|> Just (start at)
 
 -- | The settings that occurred so far, with the regions of their first statements. If a setting is
 -- missing, it is reported and added without a region, so that it is reported only once.
 type Seen = Map RequiredSetting (Maybe Region)
 
--- | Checks one statement. @seen@ are the settings above it, and @isInBlock@ is true if it is in a
--- block. The result contains the settings for the next statement, and the mistakes.
-step :: Seen -> (Bool, Statement) -> (Seen, [Error])
-step seen (isInBlock, Located at s) = (seen', misplaced <> missing <> repeated)
+-- | Checks one statement. @seen@ are the settings above it, and @below@ are the statements below
+-- it. The result contains the settings for the next statement, and the mistakes.
+step :: Seen -> Placed -> [Placed] -> (Seen, [Error])
+step seen (outer, Located at s) below = (seen', misplaced <> missing <> repeated)
   where
-    Requirement {keywordLength, given, needed, isGlobal} = requirement s
+    Requirement {keywordLength, given = own, needed, isGlobal} = requirement s
     keyword = at {end = start at + keywordLength}
-    misplaced = [NotInBlock keyword (globalKeyword s) | isInBlock && isGlobal]
+    misplaced =
+      [ NotInBlock keyword (globalKeyword s) (StatementMove at offset)
+        | isGlobal,
+          Just offset <- [outer]
+      ]
     missing = case NonEmpty.nonEmpty (filter (not . (`Map.member` seen)) needed) of
-      Just settings -> [SettingsMissing keyword settings]
+      Just settings ->
+        [SettingsMissing keyword (machiningKeyword s) (fmap (\n -> (n, givenBelow n)) settings)]
       Nothing -> []
     repeated =
       [ SettingTwice at setting before
-        | Just setting <- [given],
+        | Just setting <- [own],
           setting `notElem` [FeedSetting, ClearanceSetting],
           not (isChange s),
           null misplaced,
           Just (Just before) <- [Map.lookup setting seen]
       ]
-    now = [(setting, Nothing) | setting <- needed] <> [(setting, Just at) | Just setting <- [given]]
+    -- The statement below that gives a setting, unless one of them is in a block.
+    givenBelow setting =
+      listToMaybe
+        [ there
+          | isNothing outer,
+            (Nothing, Located there other) <- below,
+            given (requirement other) == Just setting,
+            not (isChange other)
+        ]
+    now = [(setting, Nothing) | setting <- needed] <> [(setting, Just at) | Just setting <- [own]]
     seen' = Map.unionWith (<|>) seen (Map.fromList now)
+
+-- | The keyword of a statement that needs settings.
+machiningKeyword :: Surface.Statement_ -> Text
+machiningKeyword s = case s of
+  Surface.Mill {} -> "mill"
+  Surface.Pocket {} -> "pocket"
+  Surface.Turn {} -> "turn"
+  Surface.Drill {} -> "drill"
+  Surface.Travel Surface.RapidMotion _ -> "rapid"
+  _ -> "move"
 
 -- | Is a statement a @change@, which sets another tool? A program may have several @change@
 -- statements, but only one @tool@ statement.

@@ -12,6 +12,7 @@ where
 import Base.Region (Located (..))
 import Checked.Deferred (Deferred)
 import Checked.Error (Error (..))
+import Checked.ErrorFix (unwritten)
 import Checked.Expression (TypingEnvironment, expect, spatialPoint)
 import Checked.Inference (Infer)
 import Checked.Inference qualified as Inference
@@ -107,7 +108,7 @@ contourOrContours env e@(Located at _) = do
         _ -> Type.Contour
   elsewhere <- Inference.decidedElsewhere [(at, t, found)]
   same <- Inference.unify at wanted t
-  unless same (Inference.mistake (Mismatch at wanted found elsewhere))
+  unless same (Inference.mistake (Mismatch at wanted found elsewhere unwritten))
   pure e'
 
 -- | The settings of a statement whose block is empty.

@@ -60,49 +60,22 @@ import Data.Maybe (listToMaybe)
 import Data.Set qualified as Set
 import Data.Text (Text)
 import Data.Text qualified as Text
-import Data.Vector qualified as Vector
 import Report.Report (quote)
-import Surface.Error (Enclosure (..), Error, FoundText (..))
-import Surface.Error qualified as Error
+import Surface.Error (Enclosure (..), Error)
+import Surface.Failure (ParseFailure, Problem (..), maxNesting)
+import Surface.Failure qualified as Failure
 import Surface.Keyword qualified as Keyword
 import Surface.Syntax (Expr, Statement, Statement_ (..))
 import Surface.Token (Token (..), Token_ (..))
 import Surface.Token qualified as Token
 import Surface.TokenStream (TokenStream (..))
-import Text.Megaparsec (ErrorItem (..), MonadParsec, ParseError (..), ParsecT, (<?>))
+import Text.Megaparsec (MonadParsec, ParseError (..), ParsecT, (<?>))
 import Text.Megaparsec qualified as Parsec
-
--- | A failure in the form of the library megaparsec; its offset is the index of a token, from 0.
-type Failure = ParseError TokenStream Problem
-
--- | Failures that are more specific than an unexpected token.
-data Problem
-  = -- | an enclosure without its closing bracket: the region of the opening bracket, the enclosure
-    UnclosedBlock Region Enclosure
-  | -- | a word that begins no statement
-    NoStatement Text
-  | -- | a reserved word where a statement should define a name
-    NoName Text
-  | -- | a token after a complete statement on the same line
-    TextAfterStatement Token_
-  | -- | a token that begins no cell, in a row of a table
-    NotInRow Token_
-  | -- | a token that begins no heading, among the headings of a table
-    NotInHeadings Token_
-  | -- | a @piece@ statement that does not say on which side of its curve the piece lies
-    NoSide
-  | -- | a statement in a block that cannot contain statements: its keyword
-    Misplaced Text
-  | -- | parentheses with more than three values: their region
-    ManyCoordinates Region
-  | -- | brackets nested deeper than 'maxNesting'
-    TooDeep
-  deriving stock (Eq, Ord, Show)
 
 -- | The state of a parser besides the remaining tokens.
 data ParserState = ParserState
   { -- | the failures that the parser recovered from, the newest first
-    failures :: [Failure],
+    failures :: [ParseFailure],
     -- | the offset of the end of the last token consumed
     lastEnd :: Int,
     -- | the nesting depth of the next token
@@ -128,7 +101,7 @@ class MonadParsec Problem TokenStream p => Grammar p where
 
   -- | Runs a parser. If it fails, runs the parser that the function makes from the failure. The
   -- fast parser ignores the function.
-  onFailure :: (ParseError TokenStream Problem -> p a) -> p a -> p a
+  onFailure :: (ParseFailure -> p a) -> p a -> p a
 
   -- | The tokens that are not consumed yet.
   remaining :: p [Token]
@@ -170,7 +143,7 @@ instance Grammar (ParsecT Problem TokenStream (State ParserState)) where
 -- | Runs a parser on the tokens of a text that ends at offset @finish@. Gives the errors in the
 -- order of the text, and the output; 'Nothing' if the parser failed without recovery.
 run :: Explaining a -> Int -> [Token] -> ([Error], Maybe a)
-run parser finish tokens = (map (fromFailure (Vector.fromList tokens) finish) inOrder, output)
+run parser finish tokens = (Failure.toErrors tokens finish inOrder, output)
   where
     (result, remembered) =
       runState
@@ -402,10 +375,6 @@ nested p = do
   pure a
 {-# INLINEABLE nested #-}
 
--- | The largest nesting depth.
-maxNesting :: Int
-maxNesting = 500
-
 -- Recovery
 
 -- | Runs the parser @p@. If it fails, records the failure and calls @repair@ with the tokens that
@@ -436,7 +405,7 @@ recovering repair p = do
         }
 {-# INLINEABLE recovering #-}
 
-isTooDeep :: Failure -> Bool
+isTooDeep :: ParseFailure -> Bool
 isTooDeep failure = case failure of
   FancyError _ problems -> Parsec.ErrorCustom TooDeep `Set.member` problems
   TrivialError {} -> False
@@ -562,39 +531,3 @@ beginsStatement :: Token -> Bool
 beginsStatement t = case shape t of
   Word word -> newLine t && word `elem` Keyword.statements
   _ -> False
-
--- Failures into errors
-
--- | The error for a failure. The tokens are those of the whole text, which ends at offset @finish@.
-fromFailure :: Vector.Vector Token -> Int -> Failure -> Error
-fromFailure ts finish failure = case failure of
-  FancyError _ problems | Parsec.ErrorCustom problem : _ <- Set.toList problems -> case problem of
-    UnclosedBlock opened what -> Error.Unclosed region opened what
-    NoStatement word ->
-      Error.UnknownStatement
-        region
-        word
-        (Keyword.statements <> Keyword.softStatements <> Keyword.blocks)
-    NoName word -> Error.Reserved region word
-    TextAfterStatement shape' -> Error.Trailing region shape' neighbours
-    NotInRow shape' -> Error.NotInRow region shape' neighbours
-    NotInHeadings shape' -> Error.NotInHeadings region shape' neighbours
-    NoSide -> Error.NoSide region found
-    Misplaced word -> Error.Misplaced region word
-    ManyCoordinates place -> Error.ManyCoordinates place
-    TooDeep -> Error.TooDeep region maxNesting
-  FancyError _ _ -> Error.Unexpected region found [] neighbours
-  TrivialError _ _ expected ->
-    Error.Unexpected region found (concatMap wanted (Set.toList expected)) neighbours
-  where
-    neighbours = (shape <$> ts Vector.!? (Parsec.errorOffset failure - 1), shape <$> touchingNext)
-    touchingNext = case ts Vector.!? (Parsec.errorOffset failure + 1) of
-      Just t | attached t -> Just t
-      _ -> Nothing
-    here = ts Vector.!? Parsec.errorOffset failure
-    region = maybe (Region finish finish) Token.place here
-    found = maybe FoundEnd (FoundToken . shape) here
-    wanted expected' = case expected' of
-      Label text -> [Text.pack (NonEmpty.toList text)]
-      Parsec.Tokens _ -> []
-      EndOfInput -> []

@@ -12,10 +12,13 @@ where
 import Base.Decimal qualified as Decimal
 import Base.Name qualified as Name
 import Base.Region (Region (..))
-import Data.Char (isLetter)
+import Data.Char (GeneralCategory (..), generalCategory, isLetter, ord)
+import Data.List.NonEmpty (NonEmpty)
+import Data.List.NonEmpty qualified as NonEmpty
+import Data.Maybe (listToMaybe)
 import Data.Text (Text)
 import Data.Text qualified as Text
-import Report.Fix (Fix)
+import Numeric (showHex)
 import Report.Fix qualified as Fix
 import Report.Report
   ( Label (..),
@@ -26,37 +29,47 @@ import Report.Report
     quote,
     report,
   )
+import Surface.CharacterFix qualified as CharacterFix
+import Surface.Foreign (ForeignLanguage (..), ForeignLine (translation, written))
+import Surface.Foreign qualified as Foreign
 import Surface.Keyword qualified as Keyword
-import Surface.Token (Token_ (..), columnUnits, describe, unitName)
+import Surface.RowFix qualified as RowFix
+import Surface.Token (Numeral (..), Token (..), Token_ (..), describe, unitName)
+import Surface.TokenContext (TokenContext (..))
+import Surface.TokenFix qualified as TokenFix
 
 -- | A mistake with the region that a report points at, and the facts of the report.
 data Error
-  = -- | an unexpected token: the text found, the expected tokens in words, the tokens on both sides
-    Unexpected Region FoundText [Text] Neighbours
+  = -- | an unexpected token: the text found, the expected tokens in words, the tokens around it
+    Unexpected Region FoundText [Text] TokenContext
   | -- | an enclosure without its closing bracket: the region where the bracket was expected, the
-    -- region of the opening bracket, the enclosure
-    Unclosed Region Region Enclosure
-  | -- | a word that begins no statement: the word, the keywords that begin a statement
-    UnknownStatement Region Text [Text]
-  | -- | a reserved word where a name is defined
-    Reserved Region Text
+    -- region of the opening bracket, the enclosure, the tokens around that region
+    Unclosed Region Region Enclosure TokenContext
+  | -- | a word that begins no statement: the word, the keywords that begin a statement, the tokens
+    -- around the word
+    UnknownStatement Region Text [Text] TokenContext
+  | -- | lines of another language: the language, and the lines
+    ForeignLines Region ForeignLanguage (NonEmpty ForeignLine)
+  | -- | a reserved word where a name is defined: the word, a similar name that is free
+    Reserved Region Text Text
   | -- | a token after a complete statement on the same line
-    Trailing Region Token_ Neighbours
+    Trailing Region Token_ TokenContext
   | -- | a token that begins no cell, in a row of a table
-    NotInRow Region Token_ Neighbours
+    NotInRow Region Token_ TokenContext
   | -- | a token that begins no heading, among the headings of a table
-    NotInHeadings Region Token_ Neighbours
+    NotInHeadings Region Token_ TokenContext
   | -- | a @piece@ statement that does not say on which side of its curve the piece lies; the text
-    -- found instead
-    NoSide Region FoundText
-  | -- | a statement in the braces of another statement: the keyword of the inner one
-    Misplaced Region Text
+    -- found instead, the tokens around it
+    NoSide Region FoundText TokenContext
+  | -- | a statement in the braces of another statement: the keyword of the inner one, the start of
+    -- the outer one, the tokens around the keyword
+    Misplaced Region Text (Maybe Int) TokenContext
   | -- | brackets nested too deep: the limit
     TooDeep Region Int
   | -- | a program with too many tokens: the limit
     TooLong Region Int
-  | -- | parentheses with more than three values
-    ManyCoordinates Region
+  | -- | parentheses with more than three values: their tokens
+    ManyCoordinates Region [Token]
   | -- | a file that cannot be imported: its name as written, the reason
     ImportMissing Region Text Text
   | -- | imports nested deeper than the limit: the name of the file as written, the limit
@@ -84,10 +97,6 @@ data Error
     BadAssignment Region Text Text Int
   deriving stock (Eq, Ord, Show)
 
--- | The neighbours of a wrong token: the token before it, and the token after it if that follows
--- without a space. 'Nothing' for a missing neighbour.
-type Neighbours = (Maybe Token_, Maybe Token_)
-
 -- | The text found at a region: a token, or the end of the text.
 data FoundText = FoundToken Token_ | FoundEnd
   deriving stock (Eq, Ord, Show)
@@ -107,114 +116,120 @@ data Enclosure
 -- | The report of a mistake.
 toReport :: Error -> Report
 toReport err = case err of
-  Unexpected region (FoundToken (Stray c)) _ _ ->
-    ( at
-        region
-        "E0102"
-        ("the character " <> quote (Text.singleton c) <> " has no place in a program")
-    )
-      { fixes = strayFixes region c,
+  Unexpected region (FoundToken (Stray c)) _ around ->
+    (at region "E0102" (strayTitle c))
+      { fixes = CharacterFix.characterFixes region c around,
         hints = strayHint c
       }
-  Unexpected region (FoundToken OpenText) _ _ ->
-    (at region "E0103" "a text without its closing quotation mark")
-      { hints = ["A text ends with \" on the line on which it begins."]
+  Unexpected region (FoundToken OpenText) _ around ->
+    (at region "E0103" "this text has no closing quotation mark")
+      { fixes = CharacterFix.textFixes region around,
+        hints = ["A text begins and ends with \" on one line."]
       }
-  Unexpected region (FoundToken (BadNumber text)) _ _ ->
-    (at region "E0104" (quote text <> " is not a number"))
-      { hints = ["Numbers look like 41, 59.3 or 0.02; a unit may follow: 20 mm, 45 deg, 60 mm/min."]
+  Unexpected region (FoundToken (BadNumber text)) _ around ->
+    (at region "E0104" (quote text <> " is neither a number nor a name"))
+      { fixes = CharacterFix.numberFixes region text around,
+        hints =
+          [ "A number has digits and one point at most: 41, 59.3 or 0.02. A unit may follow: 20 \
+            \mm, 45 deg, 60 mm/min. A name begins with a letter."
+          ]
       }
-  Unexpected region found expected neighbours ->
-    (at region "E0101" ("found " <> shown found <> expectation expected))
-      { label = "here",
-        fixes = case found of
-          FoundToken token
-            | isWord expected -> meant region token expected
-            | otherwise -> meant region token expected <> tokenFixes region token neighbours
+  Unexpected region found expected around ->
+    (at region "E0101" (unexpectedTitle region found expected around))
+      { fixes = case found of
+          FoundToken token -> TokenFix.unexpectedFixes region token expected around
           FoundEnd -> [],
         hints = case found of
           FoundToken (Symbol "=")
             | quote "closed" `elem` expected ->
-              ["A contour has no such sign: contour name closed { … }"]
+              ["The name of a contour is followed by its kind: contour name closed { … }"]
           FoundToken token
-            | not (isWord expected) -> advice token neighbours
+            | not (isWord expected) -> advice token around
           FoundToken _ -> []
           FoundEnd -> []
       }
-  Unclosed region opened what ->
+  Unclosed region opened what around ->
     (at region "E0105" (enclosureWords what <> " is not closed"))
-      { label = "the closing bracket was expected before this",
+      { label = "the closing bracket belongs before this",
         others = [Label opened "opened here"],
         fixes = case what of
-          BracketOf _ -> []
+          BracketOf _ -> TokenFix.closingFixes region around
           _ -> [Fix.proposed (Fix.insertion "Write } before this." (start region) "}\n")]
       }
-  UnknownStatement region word known ->
-    (at region "E0106" (quote word <> " begins no statement"))
-      { message = ["A statement begins with one of: " <> Text.intercalate ", " known <> "."],
-        fixes =
-          if word `elem` declaring
-            then [Fix.exchange ("Write let instead of " <> quote word <> ".") region "let"]
-            else nearby region word known,
-        hints = case (Name.lookAlike word known, Name.nearest word known) of
-          (_ : _, _) -> ["One of them has a letter of the other alphabet, Cyrillic or Latin."]
-          ([], _ : _) -> []
-          ([], []) ->
-            ["To give a name to a value, write: let " <> word <> " = …" | word `notElem` declaring]
-      }
-  Reserved region word ->
+  UnknownStatement region word known around ->
+    let mends = TokenFix.statementFixes region word known around
+     in (at region "E0106" ("no statement begins with " <> quote word))
+          { message = ["A statement begins with one of: " <> Text.intercalate ", " known <> "."],
+            fixes = mends,
+            hints =
+              lookAlikeHint word known
+                <> [ "The setting " <> word
+                       <> " belongs in the braces of mill, pocket, turn or drill."
+                     | Keyword.beginsItem word
+                   ]
+                <> [ "To give a name to a value, write: let " <> word <> " = …"
+                     | null mends,
+                       not (Keyword.beginsItem word)
+                   ]
+          }
+  ForeignLines region language ls -> foreignReport region language (NonEmpty.toList ls)
+  Reserved region word free ->
     (at region "E0107" (quote word <> " is a word of the language and cannot be a name"))
-      { hints = ["Choose another name, for example " <> word <> "1."]
+      { fixes = [Fix.exchange ("Name it " <> free <> ".") region free]
       }
-  Trailing region token neighbours
+  Trailing region token around
     | isBroken token ->
-      toReport (Unexpected region (FoundToken token) [] neighbours)
-  Trailing region token neighbours ->
-    (at region "E0108" ("the statement ends before " <> describe token))
+      toReport (Unexpected region (FoundToken token) [] around)
+  Trailing region token around ->
+    (at region "E0108" (trailingTitle region token around))
       { message = ["Every statement begins on a line of its own."],
-        fixes = tokenFixes region token neighbours,
-        hints = advice token neighbours
+        fixes = TokenFix.trailingFixes region token around,
+        hints = advice token around
       }
-  NotInRow region token _
+  NotInRow region token around
     | isBroken token && token `notElem` map Stray [';', '|'] ->
-      toReport (Unexpected region (FoundToken token) [] (Nothing, Nothing))
-  NotInRow region token neighbours ->
+      toReport (Unexpected region (FoundToken token) [] around)
+  NotInRow region token around ->
     (at region "E0120" (describe token <> " does not belong in a row of a table"))
-      { fixes = rowFixes region token neighbours,
-        hints = rowAdvice token neighbours
+      { fixes = RowFix.rowFixes region token around,
+        hints = RowFix.rowAdvice token around
       }
-  NotInHeadings region token _
-    | isBroken token ->
-      toReport (Unexpected region (FoundToken token) [] (Nothing, Nothing))
-  NotInHeadings region token _ ->
+  NotInHeadings region token around
+    | isBroken token && token `notElem` map Stray [';', '|'] ->
+      toReport (Unexpected region (FoundToken token) [] around)
+  NotInHeadings region token around ->
     (at region "E0120" (describe token <> " does not belong among the names of columns"))
-      { hints = headingAdvice token
+      { fixes = RowFix.headingFixes region token around,
+        hints = RowFix.headingAdvice token
       }
-  NoSide region found ->
-    (at region "E0101" ("found " <> shown found <> expectation (map quote ["left", "right"])))
-      { label = "here",
+  NoSide region found around ->
+    (at region "E0101" (unexpectedTitle region found (map quote ["left", "right"]) around))
+      { fixes = TokenFix.sideFixes region (tokenOf found) around,
         hints =
-          [ "Say on which side of its curve the piece lies, to the left or to the right of the \
-            \direction of travel: piece q = c left"
+          [ "The word says on which side of its curve the piece lies, seen in the direction of \
+            \travel: piece q = c left"
           ]
       }
-  Misplaced region word ->
+  Misplaced region word outer around ->
     (at region "E0109" (quote word <> " is a statement and does not belong in these braces"))
-      { hints =
-          if word `elem` ["rapid", "feed"]
-            then ["Behind a point, " <> quote word <> " stands on the line of that point."]
-            else ["Move it above the statement in whose braces it stands."]
+      { message =
+          [ "The feed of all statements below is set by a statement outside of braces."
+            | word == "feed"
+          ],
+        fixes = TokenFix.misplacedFixes region word outer around,
+        hints =
+          [ "If it belongs to a point, write it after that point on the same line."
+            | word `elem` ["rapid", "feed"]
+          ]
       }
   TooLong region limit ->
     (at region "E0116" ("the program has more than " <> Decimal.whole limit <> " words and signs"))
       { hints = ["Repeat with for and functions what repeats."]
       }
-  ManyCoordinates region ->
-    (at region "E0111" "a point has two or three coordinates")
-      { hints =
-          [ "A decimal point is a point: 59.3. A comma separates values.",
-            "A list stands in square brackets: [1, 2, 3, 4]."
-          ]
+  ManyCoordinates region tokens ->
+    (at region "E0111" "these brackets have more than the three coordinates of a point")
+      { fixes = TokenFix.coordinateFixes region tokens,
+        hints = ["A number has a decimal point, 59.3, and a comma separates two values."]
       }
   LinesMissing region name why ->
     (at region "E0112" ("the table " <> quote name <> " cannot be read: " <> why))
@@ -263,7 +278,7 @@ toReport err = case err of
             else quote text <> " is not a number"
         )
     )
-      { hints = ["Every line has a number for each column; the unit stands in the first line."]
+      { hints = ["Every line has a number for each column. Write the unit in the first line."]
       }
   CellCount region number columns cells decimal ->
     ( at
@@ -322,108 +337,166 @@ enclosureWords enclosure = case enclosure of
   RepetitionBlock -> "the repetition"
   BlockOf keyword -> "the block of " <> quote keyword
 
--- | Fixes that put an expected keyword in place of the token @token@, which resembles it;
--- @expected@ has the descriptions of the expected tokens.
-meant :: Region -> Token_ -> [Text] -> [Fix]
-meant region token expected = case token of
-  Word word -> nearby region word words'
-  _ -> []
-  where
-    words' = map (Text.dropAround (`elem` ("‘’" :: String))) expected
-
--- | Words with which a value gets its name in other languages.
-declaring :: [Text]
-declaring =
-  Text.words "var const def val auto int float double real number length angle point line circle"
-
--- | Fix that puts a similar word in place of a word; none if no known word is similar.
-nearby :: Region -> Text -> [Text] -> [Fix]
-nearby region word known =
-  [ Fix.exchange ("Write " <> quote w <> " instead of " <> quote word <> ".") region w
-    | w <- take 1 (Name.lookAlike word known <> Name.nearest word known)
-  ]
-
--- | Fixes for a misplaced token, judged by the tokens on both sides of it.
-tokenFixes :: Region -> Token_ -> Neighbours -> [Fix]
-tokenFixes region token neighbours = case (token, neighbours) of
-  (Symbol ",", (Just (Number _ Nothing), Just (Number _ _))) ->
-    [Fix.exchange "Write a decimal point." region "."]
-  (Symbol ",", (Just (Symbol ")"), _)) -> [Fix.removal "Remove the comma." region]
-  (Symbol "+", _) -> [Fix.removal "Remove the sign +." region]
-  (Symbol "=", (Just (Symbol "="), _)) -> [Fix.removal "Write one sign: a = b." region]
-  (Symbol "/", (Just (Symbol "/"), _)) ->
-    [Fix.exchange "Begin the comment with --." (Region (start region - 1) (end region)) "--"]
-  _ -> []
-
--- | Suggests what the author meant by a misplaced token, judged by the tokens on both sides of it.
-advice :: Token_ -> Neighbours -> [Text]
-advice token neighbours = case (token, neighbours) of
-  (Symbol ",", (Just (Number _ Nothing), Just (Number _ _))) ->
-    ["A decimal point is a point: 59.3. A comma separates values."]
+-- | Suggests what the author meant by a misplaced token, judged by the tokens around it.
+advice :: Token_ -> TokenContext -> [Text]
+advice token around = case (token, shape <$> listToMaybe (before around)) of
+  (Symbol ",", _)
+    | TokenFix.isDecimalComma token around -> []
   (Symbol ",", _) ->
-    [ "No comma belongs here: the elements of a contour stand one after another, and a point in \
-      \brackets: (0, 0)."
+    [ "The elements of a contour follow one another without commas, and a point is in brackets: \
+      \(0, 0)."
     ]
-  (Symbol "(", (Just (Word _), _)) ->
-    ["The parenthesis of a call, or of a function's parameters, touches the name: f(3)."]
-  (Symbol "(", _) -> ["Is a comma missing before it?"]
-  (Symbol "+", _) -> ["A positive number needs no sign."]
-  (Symbol "*", (Just (Symbol "*"), _)) -> ["There are no powers: write x * x."]
-  (Symbol "=", (Just (Symbol "="), _)) -> []
+  (Symbol "*", Just (Symbol "*")) -> ["There are no powers: write x * x."]
+  (Symbol "=", Just (Symbol "=")) -> []
   (Symbol "=", _) -> ["To give a name to a value, write: let name = value"]
-  (Word word, (Just (Number _ _), _))
-    | word `notElem` Keyword.reservedWords ->
-      [ "If this was meant as a unit: the units are "
+  (Word word, Just (Number _ _))
+    | not (Keyword.isReserved word),
+      Nothing <- CharacterFix.unitMeant word ->
+      [ "If "
+          <> quote word
+          <> " is a unit: the units are "
           <> Text.intercalate ", " (map unitName [minBound .. maxBound])
           <> "."
       ]
   _ -> []
 
--- | Fixes for a token that begins no cell of a row.
-rowFixes :: Region -> Token_ -> Neighbours -> [Fix]
-rowFixes region token neighbours = case (token, neighbours) of
-  (Symbol ",", (Just (Number _ Nothing), Just (Number _ _))) ->
-    [Fix.exchange "Write a decimal point." region ".", space]
-  (Symbol ",", _) -> [space]
-  (Stray _, _) -> [space]
-  (Symbol "+", (_, Just (Number _ _))) -> [Fix.removal "Remove the sign +." region]
-  (_, _) -> []
-  where
-    space = Fix.exchange "Write a space between the values." region " "
+tokenOf :: FoundText -> Maybe Token_
+tokenOf found = case found of
+  FoundToken token -> Just token
+  FoundEnd -> Nothing
 
--- | Suggests what to write instead of a token that begins no cell of a row.
-rowAdvice :: Token_ -> Neighbours -> [Text]
-rowAdvice token neighbours = case (token, neighbours) of
-  (Symbol ",", _) -> [spaces]
-  (Stray _, _) -> [spaces]
-  (Symbol "(", (Just (Symbol "-"), _)) -> ["The sign stands in the brackets too: (-h)."]
-  (Symbol "+", (_, Just (Number _ _))) -> ["A positive number needs no sign.", computed "2 + 6"]
-  (Symbol s, _) | s `elem` ["*", "/", "-", "+"] -> [computed ("2 " <> s <> " 6")]
-  (Word word, (_, touching))
-    | not (Keyword.isReserved word) ->
-      [computed (if touching == Just (Symbol "(") then word <> "(…)" else word)]
-  (_, _) -> [spaces, computed "2 * h"]
+-- | Title of the report of an unexpected token.
+unexpectedTitle :: Region -> FoundText -> [Text] -> TokenContext -> Text
+unexpectedTitle region found expected around = case found of
+  FoundEnd -> needed <> ", but the program ends here"
+  FoundToken token -> case signTitle region token around of
+    Just title -> title
+    Nothing
+      | null expected -> describe token <> " does not belong here"
+      | otherwise -> needed <> ", not " <> describe token
   where
-    spaces = "The values of a row stand one after another with spaces between them: 0 40"
-    computed what = "What is no plain number stands in brackets: (" <> what <> ")."
+    needed = case expected of
+      [] -> "more is needed here"
+      [one] -> one <> " is needed here"
+      many' -> Text.intercalate ", " (init many') <> " or " <> last many' <> " is needed here"
 
--- | Suggests what to write instead of a token that begins no heading of a table.
-headingAdvice :: Token_ -> [Text]
-headingAdvice token = case token of
-  Symbol "/" -> [units]
-  Symbol "," -> [names]
-  Symbol _ -> [names, units]
-  Word word
-    | word `elem` map unitName [minBound .. maxBound] -> [units]
-    | otherwise ->
-      ["It is a word of the language: choose another name, for example " <> word <> "1."]
-  _ -> [names, "In a row below them, what is no plain number stands in brackets: (h)."]
+-- | Title of the report of a token after a complete statement.
+trailingTitle :: Region -> Token_ -> TokenContext -> Text
+trailingTitle region token around = case signTitle region token around of
+  Just title -> title
+  Nothing -> "the statement is complete before " <> describe token
+
+-- | Title of the report of a sign that another language uses.
+signTitle :: Region -> Token_ -> TokenContext -> Maybe Text
+signTitle region token around = case (token, map shape (before around), map shape (after around)) of
+  (Symbol ",", Number a _ : _, Number b _ : _)
+    | TokenFix.isDecimalComma token around ->
+      Just
+        ( "the number "
+            <> digits a
+            <> ","
+            <> digits b
+            <> " has a comma instead of a decimal point"
+        )
+  (Symbol "=", Symbol "=" : _, _) -> Just "‘==’ is no sign of the language: equality is one ‘=’"
+  (Symbol "*", Symbol "*" : _, _) -> Just "‘**’ is no sign of the language: there are no powers"
+  (Symbol "/", Symbol "/" : _, _) -> Just "‘//’ begins no comment: a comment begins with ‘--’"
+  (Symbol "(", Word word : _, _)
+    | TokenFix.isCallApart token region around ->
+      Just ("there is a space between " <> quote word <> " and the bracket of its arguments")
+  _ -> Nothing
+
+-- | Title of the report of a character that has no place in a program.
+strayTitle :: Char -> Text
+strayTitle c
+  | generalCategory c `elem` [Format, Control] =
+    "the invisible character U+" <> codePoint c <> " has no place in a program"
+  | otherwise =
+    "the character "
+      <> quote (Text.singleton c)
+      <> (if Text.null name then "" else ", " <> name <> ",")
+      <> " has no place in a program"
   where
-    names = "The line with the names of the columns has nothing else: x y mu deg H"
-    units =
-      "A column has one of the units "
-        <> Text.intercalate ", " (map unitName columnUnits)
-        <> ", or none."
+    name = CharacterFix.characterName c
+
+-- | Number of a character in hexadecimal digits.
+codePoint :: Char -> Text
+codePoint c = Text.justifyRight 4 '0' (Text.toUpper (Text.pack (showHex (ord c) "")))
+
+-- | Names the letters of the other alphabet in a word that looks like a known one.
+lookAlikeHint :: Text -> [Text] -> [Text]
+lookAlikeHint word known =
+  [ "In " <> quote word <> " the letter " <> quote (Text.singleton a) <> " is " <> alphabet a <> "."
+    | w <- take 1 (Name.lookAlike word known),
+      (a, b) <- take 1 (filter (uncurry (/=)) (Text.zip word w)),
+      a /= b
+  ]
+  where
+    alphabet c = if c > '~' then "Cyrillic" else "Latin"
+
+-- | The report of lines of another language.
+foreignReport :: Region -> ForeignLanguage -> [ForeignLine] -> Report
+foreignReport region language ls =
+  ( at
+      region
+      "E0121"
+      ( case ls of
+          [_] -> "this line is " <> languageName language <> ", not a part program"
+          _ ->
+            Decimal.whole (length ls)
+              <> " lines from here on are "
+              <> languageName language
+              <> ", not a part program"
+      )
+  )
+    { message =
+        [ quote (written l) <> " is written: " <> Text.replace "\n" "; " (translation l)
+          | l <- take 3 translated
+        ],
+      fixes =
+        [ Fix.proposed
+            ( Fix.joined
+                (allOfThem <> " in the language of part programs.")
+                (map inOwn ls)
+            )
+          | not (null translated)
+        ]
+          <> [Fix.proposed (Fix.joined (comments <> ".") (map asComment ls))],
+      hints = [languageHint language]
+    }
+  where
+    translated = filter (not . Text.null . translation) ls
+    allOfThem = if length ls == 1 then "Write the line" else "Write the lines"
+    comments = if length ls == 1 then "Make the line a comment" else "Make the lines comments"
+    asComment l = Fix.exchange "" (Foreign.place l) ("-- " <> written l)
+    inOwn l
+      | Text.null (translation l) = asComment l
+      | otherwise = Fix.exchange "" (Foreign.place l) (translation l)
+
+languageName :: ForeignLanguage -> Text
+languageName language = case language of
+  GCode -> "G-code"
+  Apt -> "APT"
+  C -> "C"
+  Python -> "Python"
+  Basic -> "Basic"
+
+-- | The way in which programs say what is usual in another language.
+languageHint :: ForeignLanguage -> Text
+languageHint language = case language of
+  GCode ->
+    "A program describes the part, and partc computes the frames: write contour NAME closed { … } \
+    \and mill NAME outside { … }."
+  Apt ->
+    "The elements of a contour follow one another in contour NAME open { … }; the cutter is led \
+    \along it by mill NAME left { … }."
+  C ->
+    "A value gets its name with let NAME = …, and a statement ends with its line."
+  Python ->
+    "A function is let f(x) = …, and a repetition is for i in 0..9 { … }. Functions such as sin \
+    \need no import."
+  Basic ->
+    "A value gets its name with let NAME = …, and a repetition is for i in 1..10 { … }."
 
 counted :: Int -> Text -> Text
 counted n thing = Decimal.whole n <> " " <> thing <> (if n == 1 then "" else "s")
@@ -449,38 +522,11 @@ isBroken token = case token of
 at :: Region -> ReportCode -> Text -> Report
 at region code = report Error code (InSource region)
 
-shown :: FoundText -> Text
-shown found = case found of
-  FoundToken token -> describe token
-  FoundEnd -> "the end of the program"
-
-expectation :: [Text] -> Text
-expectation expected = case expected of
-  [] -> ""
-  [one] -> ", expected " <> one
-  many' -> ", expected " <> Text.intercalate ", " (init many') <> " or " <> last many'
-
--- | Fixes for a character that has no place in a program.
-strayFixes :: Region -> Char -> [Fix]
-strayFixes region c
-  | c `elem` ("−–—" :: String) = [put "Write the minus sign as -." "-"]
-  | c `elem` ("×·" :: String) = [put "Write the product with *." "*"]
-  | c == ':' = [Fix.removal "Remove the colon." region]
-  | c == '#' = [put "Begin the comment with --." "--"]
-  | c == ';' = [put "Begin a new line instead." "\n"]
-  | c == '°' = [put "Write degrees as deg." " deg"]
-  | otherwise = []
-  where
-    put title = Fix.exchange title region
-
 strayHint :: Char -> [Text]
 strayHint c
-  | c `elem` ("“”„«»'" :: String) = ["A text stands between \" and \"."]
+  | c `elem` ("“”„«»'" :: String) = ["A text begins and ends with the straight mark \"."]
   | c == '^' = ["There are no powers: write x * x, and sqrt(x) for a root."]
   | c == '±' = ["A tolerance is a statement of its own: tolerance 0.02 mm"]
-  | c == '&' = ["Write: and"]
-  | c == '|' = ["Write: or"]
-  | c == '!' = ["Write: not"]
-  | c == ';' = ["If it begins a comment: comments begin with --."]
-  | c == '.' = ["Write a number with digits on both sides of its point: 0.5, 5.0 or 5."]
+  | c == ';' = ["If a comment begins here, write --."]
+  | c == '.' = ["A number has digits before its point: 0.5, 5.0 or 5."]
   | otherwise = []

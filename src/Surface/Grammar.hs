@@ -249,7 +249,7 @@ piece = do
       Cipher
         <$> located (token "the digit of a cipher" digit)
           <*> ( (touching *> parens (expr `sepBy1` ","))
-                  <?> "the values of the cipher in brackets that touch its digit"
+                  <?> "a bracket with the values of the cipher right after its digit"
               )
     digit t = case shape t of
       Number x Nothing -> Just x

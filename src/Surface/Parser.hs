@@ -10,13 +10,21 @@ module Surface.Parser
   )
 where
 
+import Base.Name (Name (..))
+import Base.Region (Located (..))
 import Base.Result (Result (..))
+import Data.List (sortOn)
+import Data.List.NonEmpty qualified as NonEmpty
 import Data.Maybe qualified as Maybe
 import Data.Text (Text)
 import Data.Text qualified as Text
+import Report.Report (ReportPlace (..))
+import Report.Report qualified as Report
 import Surface.Combinator (run)
 import Surface.Error (Error)
 import Surface.Error qualified as Error
+import Surface.Foreign (ForeignLine, ForeignText)
+import Surface.Foreign qualified as Foreign
 import Surface.Grammar qualified as Grammar
 import Surface.Lexer qualified as Lexer
 import Surface.Parser.Fast qualified as FastParser
@@ -39,15 +47,57 @@ parseExplained :: Int -> Text -> Result w Error Program
 parseExplained begin text = case drop maxTokens tokens of
   t : _ ->
     Result {warnings = [], errors = [Error.TooLong (Token.place t) maxTokens], output = Nothing}
-  [] ->
-    Result
-      { warnings = [],
-        errors,
-        output = Just Program {statements = Maybe.fromMaybe [] parsed, comments}
-      }
+  [] -> case Foreign.recognise begin text (Maybe.mapMaybe regionOf errors) of
+    Nothing ->
+      Result
+        { warnings = [],
+          errors,
+          output = Just Program {statements = Maybe.fromMaybe [] parsed, comments}
+        }
+    Just found -> withoutForeign begin text found
   where
     (tokens, comments) = Lexer.tokens begin text
     (errors, parsed) = run Grammar.explainedProgram (begin + Text.length text) tokens
+    regionOf e = case Report.place (Error.toReport e) of
+      InSource region -> Just region
+      InTape _ -> Nothing
+      InFile -> Nothing
+
+-- | Parses a text without the lines of another language, for which there is one report. Each of
+-- these lines becomes a broken statement.
+withoutForeign :: Int -> Text -> ForeignText -> Result w Error Program
+withoutForeign begin text found =
+  Result
+    { warnings = [],
+      errors =
+        Error.ForeignLines
+          (Foreign.place (NonEmpty.head ls))
+          (Foreign.language found)
+          ls :
+        errors,
+      output =
+        Just
+          Program
+            { statements =
+                sortOn region (Maybe.fromMaybe [] parsed <> map broken (NonEmpty.toList ls)),
+              comments
+            }
+    }
+  where
+    ls = Foreign.lines' found
+    (tokens, comments) = Lexer.tokens begin (Foreign.blanked begin text found)
+    (errors, parsed) = run Grammar.explainedProgram (begin + Text.length text) tokens
+
+-- | Broken statement in place of a line of another language. It has the keyword and the name of the
+-- statement that says the same.
+broken :: ForeignLine -> Statement
+broken l = Located (Foreign.place l) $ case Text.words (Foreign.translation l) of
+  "let" : name : _ ->
+    Broken
+      (Just "let")
+      (Just (Located (Foreign.place l) (Name (Text.takeWhile (/= '(') name))))
+  keyword : _ -> Broken (Just keyword) Nothing
+  [] -> Broken Nothing Nothing
 
 -- | The largest number of tokens that a program may have.
 maxTokens :: Int

@@ -27,22 +27,22 @@ cases :: [(String, [Text], Text)]
 cases =
   [ ( "before settings of two words",
       ["mill f(1 2) right {", "  start near p", "  lead in arc 5", "  plunge slowly", "}", "aux 3"],
-      "found the number 2, expected ‘)’ or ‘,’"
+      "‘)’ or ‘,’ is needed here, not the number 2"
     ),
     ( "before settings whose brace is missing",
       ["mill a outside", "  lead in arc 5", "  plunge slowly", "}", "aux 3"],
-      "found ‘lead’, expected ‘{’"
+      "‘{’ is needed here, not ‘lead’"
     ),
     ( "before elements of two words",
       ["contour c clsed {", "  a tangent", "  b tangent", "}", "aux 3"],
-      "found ‘clsed’, expected ‘closed’ or ‘open’"
+      "‘closed’ or ‘open’ is needed here, not ‘clsed’"
     ),
     ( "before a block of statements",
       ["if f(a, ) {", "  aux 1", "} else {", "  aux 2", "}", "aux 3"],
-      "found ‘)’, expected a value or ‘if’"
+      "a value or ‘if’ is needed here, not ‘)’"
     ),
     ( "before a line that continues with a reserved word",
       ["assert (1 2) and", "  not a", "aux 3"],
-      "found the number 2, expected ‘)’ or ‘,’"
+      "‘)’ or ‘,’ is needed here, not the number 2"
     )
   ]

@@ -12,6 +12,7 @@ import Base.Region (Region)
 import Checked.Dimension (Dimension)
 import Checked.Dimension qualified as Dimension
 import Checked.Error (Error (..), UndefinedOperation (..))
+import Checked.ErrorFix (unwritten)
 import Checked.Inference.State
 import Checked.Scheme (Arithmetic (..))
 import Checked.Syntax (Operator (..))
@@ -139,7 +140,14 @@ disagree a l r = do
   elsewhere <- decidedElsewhere [(leftRegion, leftType, l), (rightRegion, rightType, r)]
   mistakeOnce
     (arithmeticRegion a : map fst elsewhere)
-    (Disagree (arithmeticRegion a) (operator a) (leftRegion, l) (rightRegion, r) elsewhere)
+    ( Disagree
+        (arithmeticRegion a)
+        (operator a)
+        (leftRegion, l)
+        (rightRegion, r)
+        elsewhere
+        (Just (unwritten, unwritten))
+    )
   solvedAs a Wrong
   where
     (leftRegion, leftType) = left a

@@ -12,17 +12,20 @@ module Checked.Inference.Overload
   )
 where
 
-import Base.Region (Region)
+import Base.Name (Name (..))
+import Base.Region (Region (..))
 import Checked.Builtin (ArgumentLabel (..), Form, Fresh (..), label)
 import Checked.Builtin qualified as Builtin
 import Checked.Dimension qualified as Dimension
-import Checked.Error (Error (..))
+import Checked.Error (Error (..), LabelChange (..))
+import Checked.ErrorFix (unwritten)
 import Checked.Inference.State
 import Checked.Scheme (OverloadedCall (..))
 import Checked.Type (Type (..))
 import Control.Monad (unless)
 import Data.Containers.ListUtils (nubOrd)
 import Data.Maybe (mapMaybe)
+import Surface.Keyword qualified as Keyword
 
 -- | Solves a call if exactly one form fits, and reports it if no form fits. The result is 'False'
 -- if several forms fit, so that the call remains a constraint.
@@ -56,21 +59,60 @@ reportMisfit :: OverloadedCall -> [Type] -> Infer ()
 reportMisfit call types = case mapMaybe (oneMisfit call types) (formsByLabels call) of
   (region, wanted, written, found) : _ -> do
     elsewhere <- decidedElsewhere [(region, written, found)]
-    mistakeOnce (map fst elsewhere) (Mismatch region wanted found elsewhere)
-  [] ->
-    mistake
-      ( NoForm
-          (callRegion call)
-          (Builtin.name (builtin call))
-          (zip (map fst (arguments call)) types)
-          (nubOrd (map (Builtin.formText (builtin call)) (formsByLabels call <> formsByCount)))
-      )
+    mistakeOnce (map fst elsewhere) (Mismatch region wanted found elsewhere unwritten)
+  [] -> case mapMaybe (\f -> (f,) <$> exchanged types (parameterTypes f)) (formsByLabels call) of
+    (form, order) : _ ->
+      mistake
+        (Swapped (callRegion call) (Name name) given (Builtin.formText (builtin call) form) order)
+    [] ->
+      mistake
+        ( NoForm
+            (callRegion call)
+            name
+            given
+            (nubOrd (map (Builtin.formText (builtin call)) (formsByLabels call <> formsByCount)))
+            (mapMaybe (singleMisfit given) (formsByLabels call))
+            (mapMaybe (oneLabel call types) formsByCount)
+            []
+        )
   where
+    name = Builtin.name (builtin call)
+    given = zip (map fst (arguments call)) types
     formsByCount =
       [ f
         | f <- Builtin.forms plainUnknowns (builtin call),
           length (Builtin.parameters f) == length (labels call)
       ]
+
+-- | The word before one argument with which a call has a form; @types@ are the types of its
+-- arguments.
+oneLabel :: OverloadedCall -> [Type] -> Form -> Maybe LabelChange
+oneLabel call types form =
+  case [ (region, label p)
+         | (own, (region, _), p) <-
+             zip3 (labels call) (arguments call) (Builtin.parameters form),
+           own /= label p
+       ] of
+    [(region, Word selector)]
+      | length types == length (labels call),
+        and (zipWith isCompatible types (parameterTypes form)) ->
+        Just
+          ( LabelChange
+              (Region (start region) (start region))
+              (Keyword.selectorWord selector <> " ")
+          )
+    _ -> Nothing
+
+-- | The only one of some arguments that does not fit a form: its region, the wanted type and its
+-- own.
+singleMisfit :: [(Region, Type)] -> Form -> Maybe (Region, Type, Type)
+singleMisfit given form =
+  case [ (region, wanted, found)
+         | ((region, found), wanted) <- zip given (parameterTypes form),
+           not (isCompatible found wanted)
+       ] of
+    [one] -> Just one
+    _ -> Nothing
 
 -- | The only argument that does not fit a form. The result is 'Nothing' if several arguments do not
 -- fit. It is also 'Nothing' unless the types of the argument and of the parameter are both

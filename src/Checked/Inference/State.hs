@@ -19,6 +19,7 @@ module Checked.Inference.State
     mistake,
     mistakeOnce,
     taint,
+    wrongIfTainted,
 
     -- * Names
     find,
@@ -44,6 +45,7 @@ module Checked.Inference.State
     unifyDimensions,
     equate,
     isCompatible,
+    exchanged,
   )
 where
 
@@ -53,6 +55,7 @@ import Base.Region (Located (..), Region)
 import Checked.Dimension (Dimension)
 import Checked.Dimension qualified as Dimension
 import Checked.Error (Error (..))
+import Checked.ErrorFix (unwritten)
 import Checked.Scheme (Binding (..), DeferredConstraint, Meaning (..), Scheme (..))
 import Checked.Syntax (Mention (..), MentionType (..))
 import Checked.Type (Type (..))
@@ -184,6 +187,17 @@ mistakeOnce regions e = do
 -- | Marks the present statement as dependent on a mistake that is already reported.
 taint :: Infer ()
 taint = modify' (\s -> s {isTainted = True})
+
+-- | Runs the inference of a term. The type is 'Wrong' if it contains a mistake or depends on one,
+-- so that no report follows from it.
+wrongIfTainted :: Infer (Type, a) -> Infer (Type, a)
+wrongIfTainted infer = do
+  before <- gets isTainted
+  modify' (\s -> s {isTainted = False})
+  (t, a) <- infer
+  isWrong <- gets isTainted
+  modify' (\s -> s {isTainted = before || isWrong})
+  pure (if isWrong then Wrong else t, a)
 
 -- Names
 
@@ -374,7 +388,12 @@ equate region wanted found = do
   found' <- resolved found
   elsewhere <- decidedElsewhere [(region, wanted, wanted'), (region, found, found')]
   same <- unify region wanted found
-  unless same (mistakeOnce (region : map fst elsewhere) (Mismatch region wanted' found' elsewhere))
+  unless
+    same
+    ( mistakeOnce
+        (region : map fst elsewhere)
+        (Mismatch region wanted' found' elsewhere unwritten)
+    )
 
 -- | Can two types become equal when more unknowns are decided? A dimension that contains unknowns
 -- counts as fitting every other dimension. Decides no unknowns itself.
@@ -391,3 +410,23 @@ isCompatible found wanted = case (found, wanted) of
   _ -> False
   where
     isCompatibleDimension d e = d == e || not (Dimension.isKnown d) || not (Dimension.isKnown e)
+
+-- | The indices of two terms in the wrong order, judged by the types that are found and wanted:
+-- exchanged, all terms would fit. 'Nothing' if all fit as they are, if a type is 'Wrong', or if no
+-- exchange helps.
+exchanged :: [Type] -> [Type] -> Maybe (Int, Int)
+exchanged found wanted
+  | Wrong `elem` found || fits found = Nothing
+  | otherwise =
+    listToMaybe
+      [ (i, j)
+        | j <- [1 .. length found - 1],
+          i <- [0 .. j - 1],
+          fits (swapped i j)
+      ]
+  where
+    fits ts = and (zipWith isCompatible ts wanted)
+    swapped i j =
+      [ found !! (if k == i then j else if k == j then i else k)
+        | k <- [0 .. length found - 1]
+      ]

@@ -1,0 +1,107 @@
+-- | Calls of functions as the program writes them: their arguments, labels, and the forms that they
+-- resemble. A label is a word such as @near@ before an argument.
+module Checked.Call
+  ( Call (..),
+    argumentValues,
+    unlabelled,
+    labelOf,
+    withLabels,
+    labelChanges,
+    nearestForm,
+    placeholders,
+  )
+where
+
+import Base.Name (Name)
+import Base.Region (Located (..), Region (..))
+import Checked.Builtin (ArgumentLabel, Form (..))
+import Checked.Builtin qualified as Builtin
+import Checked.Error (LabelChange (..))
+import Checked.ErrorFix qualified as ErrorFix
+import Checked.Syntax qualified as Checked
+import Data.Containers.ListUtils (nubOrd)
+import Data.List (sortOn)
+import Data.Text (Text)
+import Surface.Keyword qualified as Keyword
+import Surface.Syntax qualified as Surface
+
+-- | A call as the program writes it.
+data Call = Call
+  { callRegion :: Region,
+    callee :: Located Name,
+    written :: [Surface.Argument]
+  }
+
+-- | The arguments of a call. 'Nothing' if one of them has a label, such as @near@.
+unlabelled :: Call -> Maybe [Surface.Expr]
+unlabelled c = traverse given (written c)
+  where
+    given a = case a of
+      Surface.Given e -> Just e
+      Surface.Chosen _ _ -> Nothing
+      Surface.Ranked _ -> Nothing
+
+labelOf :: Surface.Argument -> ArgumentLabel
+labelOf a = case a of
+  Surface.Given _ -> Builtin.NoLabel
+  Surface.Chosen word _ -> Builtin.Word (value word)
+  Surface.Ranked _ -> Builtin.Rank
+
+-- | The values of the arguments of a call. The labels @first@ and @last@ have no value.
+argumentValues :: Call -> [Surface.Expr]
+argumentValues c = concatMap valueOf (written c)
+  where
+    valueOf a = case a of
+      Surface.Given e -> [e]
+      Surface.Chosen _ e -> [e]
+      Surface.Ranked _ -> []
+
+-- | The arguments of a checked call: the checked values @vs@, with the labels of the written
+-- arguments @as@.
+withLabels :: [Surface.Argument] -> [Checked.Expr] -> [Checked.Argument]
+withLabels as vs = case (as, vs) of
+  (Surface.Given _ : more, v : rest) -> Checked.Given v : withLabels more rest
+  (Surface.Chosen word _ : more, v : rest) -> Checked.Chosen (value word) v : withLabels more rest
+  (Surface.Ranked rank : more, _) -> Checked.Ranked (value rank) : withLabels more vs
+  _ -> []
+
+-- | The changes of one label with which a call has the labels of one of the forms.
+labelChanges :: Call -> [Form] -> [LabelChange]
+labelChanges c forms =
+  nubOrd
+    [ change
+      | form <- forms,
+        length (Builtin.parameters form) == length (written c),
+        [change] <- [changesTo (map Builtin.label (Builtin.parameters form))]
+    ]
+  where
+    changesTo labels =
+      [ changed a label
+        | (a, label) <- zip (written c) labels,
+          labelOf a /= label
+      ]
+    changed a label = LabelChange (before a) (word label)
+    -- The region of the label of an argument, with the space after it.
+    before a = case a of
+      Surface.Given e -> Region (start (region e)) (start (region e))
+      Surface.Chosen l e -> Region (start (region l)) (start (region e))
+      Surface.Ranked l -> region l
+    word label = case label of
+      Builtin.NoLabel -> ""
+      Builtin.Word selector -> Keyword.selectorWord selector <> " "
+      Builtin.Rank -> "first"
+
+-- | The parameters of the form without labels whose number of parameters is nearest to @count@.
+nearestForm :: Int -> [Form] -> [(Text, Maybe Text)]
+nearestForm count forms =
+  concatMap
+    (placeholders . snd)
+    (take 1 (sortOn fst [(abs (size f - count), f) | f <- forms, isPlain f]))
+  where
+    size = length . Builtin.parameters
+    isPlain f = all ((== Builtin.NoLabel) . Builtin.label) (Builtin.parameters f)
+
+-- | The parameters of a form, each with a value that could stand in its place.
+placeholders :: Form -> [(Text, Maybe Text)]
+placeholders form =
+  [(Builtin.title p, ErrorFix.placeholder (Builtin.type' p)) | p <- Builtin.parameters form]

@@ -1,0 +1,208 @@
+{-# OPTIONS_GHC -O0 #-}
+
+-- | Fixes for characters that have no place in a program, and for numbers, units and texts that are
+-- written in another way.
+module Surface.CharacterFix
+  ( characterName,
+    characterFixes,
+    powerFixes,
+    numberFixes,
+    unitMeant,
+    textFixes,
+  )
+where
+
+import Base.Region (Region (..))
+import Data.Char (GeneralCategory (..), chr, generalCategory, isAlpha, isDigit, ord)
+import Data.Maybe (listToMaybe)
+import Data.Text (Text)
+import Data.Text qualified as Text
+import Report.Fix (Fix (..), FixEdit (..), FixText (..))
+import Report.Fix qualified as Fix
+import Report.Report (quote)
+import Surface.Token (Numeral (..), Token (..), Token_ (..), unitName)
+import Surface.TokenContext (TokenContext (..), following, previous)
+
+-- Characters
+
+-- | Name of a character that has no place in a program; empty for one that everybody can name.
+characterName :: Char -> Text
+characterName c
+  | c `elem` ("−–—" :: String) = "a long minus sign"
+  | c `elem` ("“”„«»‘’‚‹›" :: String) = "a curved quotation mark"
+  | c `elem` ("⌀∅" :: String) = "the sign of a diameter"
+  | c == '×' = "a sign of multiplication"
+  | c == '·' = "a raised dot"
+  | c == '÷' = "a sign of division"
+  | c == '°' = "the sign of degrees"
+  | c == ';' = "a semicolon"
+  | isFullWidth c = "a wide form of " <> quote (Text.singleton (narrow c))
+  | otherwise = ""
+
+-- | Fixes for a character that has no place in a program.
+characterFixes :: Region -> Char -> TokenContext -> [Fix]
+characterFixes region c around
+  | c `elem` ("−–—" :: String) = [put "Write the minus sign as -." "-"]
+  | c `elem` ("×·" :: String) = [put "Write the product with *." "*"]
+  | c == '÷' = [put "Write the quotient with /." "/"]
+  | c == '≤' = [put "Write <= instead." "<="]
+  | c == '≥' = [put "Write >= instead." ">="]
+  | c == '≠' = [put "Write != instead." "!="]
+  | c == ':' = [Fix.removal "Remove the colon." region]
+  | c == '#' = [put "Begin the comment with --." "--"]
+  | c == ';' && null (after around) = [Fix.removal "Remove the semicolon." region]
+  | c == ';' = [put "Begin a new line instead." "\n"]
+  | c == '°' = [put "Write degrees as deg." " deg"]
+  | c == '&' = [Fix.exchange "Write and instead." (twice '&') " and "]
+  | c == '|' = [Fix.exchange "Write or instead." (twice '|') " or "]
+  | c == '!' = [put "Write not instead." "not "]
+  | c `elem` quotationMarks = quotationFixes region around
+  | c `elem` ("⌀∅" :: String) = diameterFixes region around
+  | c == '^' = powerFixes region around
+  | c == '.' = pointFixes region around
+  | isFullWidth c = [put ("Write " <> narrowed <> " instead.") narrowed]
+  | generalCategory c `elem` [Format, Control] =
+    [Fix.removal "Remove the invisible character." region]
+  | otherwise = []
+  where
+    put title = Fix.exchange title region
+    narrowed = Text.singleton (narrow c)
+    twice sign = case following around of
+      Just t | shape t == Stray sign && attached t -> Region (start region) (end (place t))
+      _ -> region
+
+quotationMarks :: String
+quotationMarks = "“”„«»‘’‚‹›'"
+
+isFullWidth :: Char -> Bool
+isFullWidth c = c >= '\xFF01' && c <= '\xFF5E'
+
+-- | The character of ASCII of which a character is the wide form.
+narrow :: Char -> Char
+narrow c = chr (ord c - 0xFEE0)
+
+-- | Writes straight marks instead of all curved ones on the line.
+quotationFixes :: Region -> TokenContext -> [Fix]
+quotationFixes region around =
+  [ Fix.joined
+      "Write the quotation marks as \"."
+      [Fix.exchange "" r "\"" | r <- region : others]
+    | odd (length others)
+  ]
+  where
+    others = [place t | t <- after around, Stray c <- [shape t], c `elem` quotationMarks]
+
+-- | Fixes for the sign of a diameter before a number.
+diameterFixes :: Region -> TokenContext -> [Fix]
+diameterFixes region around = case (before around, following around) of
+  (t : _, _) | shape t == Symbol "(", isCutter (before around) -> [put "diameter "]
+  (_, Just t)
+    | Number _ _ <- shape t ->
+      [ Fix.joined
+          "Write the radius: half the diameter."
+          [Fix.removal "" region, Fix.insertion "" (end (place t)) " / 2"]
+      ]
+  _ -> []
+  where
+    put = Fix.exchange "Write diameter instead." region
+    isCutter ts = case map shape ts of
+      _ : Word kind : _ -> kind `elem` ["mill", "drill", "cone", "blade"]
+      _ -> False
+
+-- | Writes a power as a product.
+powerFixes :: Region -> TokenContext -> [Fix]
+powerFixes region around = case (previous around, following around) of
+  (Just base, Just count)
+    | Number (Numeral digits _) Nothing <- shape count,
+      digits `elem` ["2", "3"],
+      isSingle (shape base) ->
+      [ Fix
+          { title = "Write the power as a product.",
+            isProposal = False,
+            edits =
+              [ FixEdit
+                  (Region (start region) (end (place count)))
+                  (concat (replicate (if digits == "2" then 1 else 2) (factor base)))
+              ]
+          }
+      ]
+  _ -> []
+  where
+    factor base = [Written " * ", Copied (place base)]
+    isSingle token = case token of
+      Word _ -> True
+      Number _ _ -> True
+      _ -> False
+
+-- | Writes the 0 before a decimal point.
+pointFixes :: Region -> TokenContext -> [Fix]
+pointFixes region around = case following around of
+  Just t
+    | attached t,
+      Number (Numeral digits _) _ <- shape t,
+      not (Text.any (== '.') digits) ->
+      [Fix.insertion "Write 0 before the decimal point." (start region) "0"]
+  _ -> []
+
+-- | Fix for a text without its closing quotation mark.
+textFixes :: Region -> TokenContext -> [Fix]
+textFixes region around =
+  [ Fix.insertion "Write \" at the end of the line." (end region) "\""
+    | t : _ <- [reverse (before around)],
+      shape t `elem` map Word ["part", "import", "machine", "table"]
+  ]
+
+-- Numbers and units
+
+-- | The unit that a user means by a word; 'Nothing' if it resembles none.
+unitMeant :: Text -> Maybe Text
+unitMeant word = listToMaybe ([u | u <- units, u == small] <> [u | (w, u) <- others, w == small])
+  where
+    small = Text.toLower word
+    units = map unitName [minBound .. maxBound]
+    others =
+      concat
+        [ map (,"mm") (Text.words "мм millimetre millimetres millimeter millimeters mms"),
+          map (,"cm") (Text.words "см centimetre centimetres centimeter centimeters"),
+          map (,"m") (Text.words "м metre metres meter meters"),
+          map (,"in") (Text.words "inch inches дюйм дюйма"),
+          map (,"deg") (Text.words "degree degrees degs grad град градус градусов гр"),
+          map (,"rad") (Text.words "radian radians рад радиан"),
+          map (,"mm/min") (Text.words "mmpm"),
+          map (,"rpm") (Text.words "об r/min revs")
+        ]
+
+-- | Fixes for a text that begins like a number but is none.
+numberFixes :: Region -> Text -> TokenContext -> [Fix]
+numberFixes region text around
+  | Just unit <- unitMeant rest, isPlain = [put (digits <> " " <> unit)]
+  | Text.all (\c -> isDigit c || c == '_') text = [put (Text.filter isDigit text)]
+  | Just zeros <- exponentOf rest, Text.all isDigit digits = [put (digits <> zeros)]
+  | [_, _, _] <- Text.splitOn "." text,
+    Text.all (\c -> isDigit c || c == '.') text =
+    let (a, b) = Text.breakOn "." text
+        (c, d) = Text.breakOn "." (Text.drop 1 b)
+     in map
+          (Fix.proposed . put)
+          [a <> "." <> c <> Text.drop 1 d, a <> c <> "." <> Text.drop 1 d]
+  | isName && isDefined = [Fix.proposed (put (rest <> digits))]
+  | isName && isPlain = [Fix.proposed (put (digits <> " * " <> rest))]
+  | otherwise = []
+  where
+    (digits, rest) = Text.span (\c -> isDigit c || c == '.') text
+    isPlain = Text.count "." digits <= 1 && not (Text.null rest)
+    isName = maybe False (isAlpha . fst) (Text.uncons rest) && not (Text.any (== '.') rest)
+    isDefined = case map shape (before around) of
+      [Word word] -> word `elem` ["let", "param", "contour", "table", "curve", "piece", "part"]
+      _ -> False
+    put new = Fix.exchange ("Write " <> new <> ".") region new
+
+-- | The zeros of the power of ten that a text such as @e3@ means.
+exponentOf :: Text -> Maybe Text
+exponentOf text = case Text.uncons (Text.toLower text) of
+  Just ('e', count)
+    | [(n, "")] <- reads (Text.unpack count),
+      n > 0,
+      n < (7 :: Int) ->
+      Just (Text.replicate n "0")
+  _ -> Nothing

@@ -1,0 +1,150 @@
+-- | The expressions of a program, for passes that look at all of them.
+module Surface.Expression
+  ( statementsIn,
+    ofStatement,
+    everywhere,
+  )
+where
+
+import Base.Region (Located (..))
+import Data.List.NonEmpty qualified as NonEmpty
+import Data.Maybe (maybeToList)
+import Surface.Syntax
+
+-- | A statement and all statements in its blocks.
+statementsIn :: Statement -> [Statement]
+statementsIn s = s : concatMap statementsIn inner
+  where
+    inner = case value s of
+      Repeat _ _ body -> body
+      When _ body others -> body <> others
+      With _ body -> body
+      _ -> []
+
+-- | The expressions of a statement that are not parts of other expressions. Those of the statements
+-- in its blocks are left out.
+ofStatement :: Statement -> [Expr]
+ofStatement (Located _ s) = case s of
+  Part _ _ -> []
+  Machine _ -> []
+  Import _ -> []
+  Tool c -> ofCutter c
+  Feed e -> [e]
+  Tolerance (Within e) -> [e]
+  Tolerance (Between a b) -> [a, b]
+  Clearance e -> [e]
+  From e -> [e]
+  LetValue _ e -> [e]
+  LetFunction _ _ e -> [e]
+  Param _ e -> [e]
+  Contour _ _ items -> concatMap ofItem items
+  Table _ (WrittenLines ls) -> concatMap ofLine ls
+  Table _ (LinesFromFile _) -> []
+  Curve _ e -> [e]
+  Piece _ e ciphers _ joggles -> e : concatMap ofCipher ciphers <> concatMap ofJoggle joggles
+  Assert e within -> e : maybeToList within
+  Mill e _ settings -> e : concatMap ofSetting settings
+  Pocket e stepover settings -> e : stepover : concatMap ofSetting settings
+  Turn e _ settings -> e : concatMap ofSetting settings
+  Drill e depth' settings -> e : depth' : concatMap ofSetting settings
+  Travel _ stops -> concatMap ofStop (NonEmpty.toList stops)
+  Change e c -> e : ofCutter c
+  Spindle (Spinning _ e) -> maybeToList e
+  Spindle SpindleStop -> []
+  Coolant _ -> []
+  Auxiliary e -> [e]
+  Repeat _ e _ -> [e]
+  When e _ _ -> [e]
+  With e _ -> [e]
+  Broken _ _ -> []
+
+-- | An expression and all its parts.
+everywhere :: Expr -> [Expr]
+everywhere e = e : concatMap everywhere (parts (value e))
+
+parts :: Expr_ -> [Expr]
+parts e = case e of
+  Literal _ _ -> []
+  Variable _ -> []
+  Call _ arguments -> concatMap ofArgument (NonEmpty.toList arguments)
+  Negate a -> [a]
+  Not a -> [a]
+  Binary _ a b -> [a, b]
+  Range a b step -> a : b : maybeToList step
+  If a b c -> [a, b, c]
+  Pair a b -> [a, b]
+  Triple a b c -> [a, b, c]
+  List es -> es
+  Each a _ list -> [a, list]
+
+ofArgument :: Argument -> [Expr]
+ofArgument a = case a of
+  Given e -> [e]
+  Chosen _ e -> [e]
+  Ranked _ -> []
+
+ofCutter :: Cutter -> [Expr]
+ofCutter (Located _ c) = case c of
+  MillCutter e -> [e]
+  DrillCutter e -> [e]
+  TurningCutter e -> [e]
+  ConeCutter a b d -> [a, b, d]
+  BladeCutter a b -> [a, b]
+
+ofItem :: Item -> [Expr]
+ofItem (Located _ i) = case i of
+  Element _ e modifiers link -> e : concatMap ofModifier modifiers <> concatMap ofLink link
+  For _ e items -> e : concatMap ofItem items
+  Choose e items others -> e : concatMap ofItem (items <> others)
+  BrokenItem _ -> []
+
+ofModifier :: Modifier -> [Expr]
+ofModifier (Located _ m) = case m of
+  ElementFeed e -> [e]
+  Slow -> []
+  ElementAllowance e -> [e]
+  Bevel e -> [e]
+
+ofLink :: Link -> [Expr]
+ofLink (Located _ l) = case l of
+  Meet e -> maybeToList e
+  Smooth -> []
+  Tangent -> []
+  Fillet e -> [e]
+  Chamfer e -> [e]
+
+ofLine :: TableLine -> [Expr]
+ofLine (Located _ l) = case l of
+  Header _ -> []
+  Entries es -> NonEmpty.toList es
+  Numbers _ -> []
+  BrokenLine -> []
+
+ofCipher :: Cipher -> [Expr]
+ofCipher (Located _ (Cipher _ es)) = NonEmpty.toList es
+
+ofJoggle :: Joggle -> [Expr]
+ofJoggle (Located _ (Joggle a b d r)) = [a, b, d, r]
+
+ofSetting :: Setting -> [Expr]
+ofSetting (Located _ s) = case s of
+  Approach stops -> concatMap ofStop (NonEmpty.toList stops)
+  Retract stops -> concatMap ofStop (NonEmpty.toList stops)
+  Depth a b -> a : maybeToList b
+  LeadBy _ _ e -> [e]
+  Allowances es -> NonEmpty.toList es
+  CornerStyle _ -> []
+  CutBy _ -> []
+  CompensationBy _ -> []
+  StartNear e -> [e]
+  Plunge e -> [e]
+  Peck e -> [e]
+  Islands es -> NonEmpty.toList es
+  RestAllowed -> []
+  BrokenSetting -> []
+
+ofStop :: Stop -> [Expr]
+ofStop (Stop e pace') = case pace' of
+  Cutting -> [e]
+  Rapid -> [e]
+  AtFeed f -> [e, f]
