@@ -53,7 +53,7 @@ recognise begin text mistakes =
   where
     linesOf language =
       concat (zipWith located ofText (ForeignLine.readLines language (map snd ofText)))
-    ofText = numbered begin (Text.split (== '\n') text)
+    ofText = numbered begin (Text.split (`elem` ['\n', '\r']) text)
     isIn (Region from to) mistake = start mistake >= from && start mistake <= to
 
 -- | Lines with the offsets at which they start.
