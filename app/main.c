@@ -4,13 +4,24 @@
    four times as much. The language server lives long: it keeps little memory, and has two cores, so that
    its messages do not wait for an analysis. In both, one thread collects garbage, and statistics are
    kept. The user's guide of GHC describes hs_main and RtsConfig ("Using your own main()"). */
+#include <fcntl.h>
 #include <string.h>
 #include "Rts.h"
 
 extern StgClosure ZCMain_main_closure;
 
+/* Keeps the run-time system from taking the number of a closed standard stream for a file of its own.
+   Reading or writing the stream still fails as on a closed one. */
+static void occupyClosedStreams(void)
+{
+    for (int stream = 0; stream <= 2; stream++)
+        if (fcntl(stream, F_GETFD) == -1)
+            (void)open("/dev/null", stream == 0 ? O_WRONLY : O_RDONLY);
+}
+
 int main(int argc, char *argv[])
 {
+    occupyClosedStreams();
     RtsConfig config = defaultRtsConfig;
     int isServer = 0;
     for (int i = 1; i < argc; i++)

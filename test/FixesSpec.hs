@@ -118,7 +118,8 @@ checked file text = case takeExtension file of
     pure (Region.fromText (Text.pack file) text, sortedReports result)
   _ -> do
     loaded <- LoadedProgram.load (Import.byName reader) file text
-    pure (LoadedProgram.source loaded, sortedReports (Snapshot.whole (Snapshot.checkWith [] loaded)))
+    let result = Snapshot.whole (Snapshot.checkWith [] loaded)
+    pure (LoadedProgram.source loaded, sortedReports result)
   where
     sortedReports result = Report.sorted (errors result <> warnings result)
     reader name = do

@@ -10,6 +10,7 @@ where
 import Data.Aeson (Value (..), object, (.=))
 import Data.Aeson.Key (Key)
 import Data.Aeson.KeyMap qualified as KeyMap
+import Data.Aeson.Types (Pair)
 import Data.Foldable (toList)
 import Data.Maybe (isJust)
 import Data.Text (Text)
@@ -87,41 +88,45 @@ initializeResult :: Value
 initializeResult =
   object
     [ "serverInfo" .= object ["name" .= ("partc" :: Text)],
-      "capabilities"
-        .= object
-          [ "textDocumentSync"
-              .= object
-                [ "openClose" .= True,
-                  "change" .= incremental,
-                  "save" .= object ["includeText" .= False]
-                ],
-            "hoverProvider" .= True,
-            "definitionProvider" .= True,
-            "referencesProvider" .= True,
-            "documentHighlightProvider" .= True,
-            "renameProvider" .= object ["prepareProvider" .= True],
-            "documentSymbolProvider" .= True,
-            "completionProvider" .= object ["triggerCharacters" .= ["(", "," :: Text]],
-            "signatureHelpProvider"
-              .= object
-                ["triggerCharacters" .= ["(" :: Text], "retriggerCharacters" .= ["," :: Text]],
-            "semanticTokensProvider"
-              .= object
-                [ "legend"
-                    .= object ["tokenTypes" .= tokenTypes, "tokenModifiers" .= tokenModifiers],
-                  "full" .= True
-                ],
-            "inlayHintProvider" .= True,
-            "documentLinkProvider" .= object ["resolveProvider" .= False],
-            "codeLensProvider" .= object ["resolveProvider" .= False],
-            "foldingRangeProvider" .= True,
-            "selectionRangeProvider" .= True,
-            "documentOnTypeFormattingProvider"
-              .= object ["firstTriggerCharacter" .= ("\n" :: Text)],
-            "documentFormattingProvider" .= True,
-            "codeActionProvider" .= object ["codeActionKinds" .= ["quickfix" :: Text]]
-          ]
+      "capabilities" .= object capabilities
     ]
+
+-- | The capabilities of the server.
+capabilities :: [Pair]
+capabilities =
+  [ "textDocumentSync"
+      .= object
+        [ "openClose" .= True,
+          "change" .= incremental,
+          "save" .= object ["includeText" .= False]
+        ],
+    "hoverProvider" .= True,
+    "definitionProvider" .= True,
+    "referencesProvider" .= True,
+    "documentHighlightProvider" .= True,
+    "renameProvider" .= object ["prepareProvider" .= True],
+    "documentSymbolProvider" .= True,
+    "workspaceSymbolProvider" .= True,
+    "completionProvider" .= object ["triggerCharacters" .= ["(", "," :: Text]],
+    "signatureHelpProvider"
+      .= object
+        ["triggerCharacters" .= ["(" :: Text], "retriggerCharacters" .= ["," :: Text]],
+    "semanticTokensProvider"
+      .= object
+        [ "legend"
+            .= object ["tokenTypes" .= tokenTypes, "tokenModifiers" .= tokenModifiers],
+          "full" .= True
+        ],
+    "inlayHintProvider" .= True,
+    "documentLinkProvider" .= object ["resolveProvider" .= False],
+    "codeLensProvider" .= object ["resolveProvider" .= False],
+    "foldingRangeProvider" .= True,
+    "selectionRangeProvider" .= True,
+    "documentOnTypeFormattingProvider"
+      .= object ["firstTriggerCharacter" .= ("\n" :: Text)],
+    "documentFormattingProvider" .= True,
+    "codeActionProvider" .= object ["codeActionKinds" .= ["quickfix" :: Text]]
+  ]
   where
     -- The protocol's number for Incremental: the client sends changed ranges, not whole texts.
     incremental = 2 :: Int

@@ -39,7 +39,7 @@ import Query.Symbol qualified as Symbol
 symbols :: Method
 symbols client subject _ = pure (toJSON shown)
   where
-    found = Symbol.symbols (now subject)
+    found = Symbol.present (now subject) (sound subject)
     shown
       | hierarchical client = map nested found
       | otherwise = map (flatSymbol subject) (concatMap Symbol.flattened found)

@@ -13,11 +13,13 @@ module Lsp.Schedule
     refuseWaiting,
     tooLate,
     answer,
+    answered,
     patience,
   )
 where
 
 import Data.Aeson (Value (..))
+import Data.Aeson.Types (Parser)
 import Data.Aeson.Types qualified as Aeson (parseEither)
 import Data.List qualified as List
 import Data.Map.Strict qualified as Map
@@ -264,7 +266,16 @@ faulty c why w session = case kind (work w) of
 answer :: Client -> OpenDocument -> Id -> Text -> Value -> Outgoing
 answer c o ident name params = case Request.method name of
   Nothing -> Refusal ident (Failure MethodNotFound ("there is no request " <> name))
-  Just method' ->
-    case Aeson.parseEither (method' c (OpenDocument.subject o)) params of
-      Left why -> Refusal ident (Failure InvalidParams (Text.pack why))
-      Right result -> Result ident result
+  Just method' -> answered ident (method' c (OpenDocument.subject o)) params
+
+-- | The answer that a function gives for the parameters of a request with this identifier. If the
+-- function fails, the request is refused with the reason.
+answered :: Id -> (Value -> Parser Value) -> Value -> Outgoing
+answered ident f params = case Aeson.parseEither f params of
+  Right result -> Result ident result
+  Left why -> Refusal ident (Failure InvalidParams (withoutPlace (Text.pack why)))
+  where
+    -- The parser of JSON puts the place in the parameters before the reason.
+    withoutPlace why
+      | "Error in $" `Text.isPrefixOf` why = Text.drop 2 (snd (Text.breakOn ": " why))
+      | otherwise = why

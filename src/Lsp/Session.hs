@@ -102,32 +102,36 @@ request now ident name params session = case (phase session, name) of
       concatMap refusals (Map.keys (documents session))
         <> [Send (Result ident Null)]
     )
+  (Running _, _)
+    | Just ofAll <- Request.workspaceMethod name ->
+      let subjects = map OpenDocument.subject (Map.elems (documents session))
+       in (session, [Send (Schedule.answered ident (ofAll subjects) params)])
   (Running c, _) -> case (Request.method name, Aeson.parseEither named params) of
     (Nothing, _) -> refuse MethodNotFound ("there is no request " <> name)
     (_, Left why) -> refuse InvalidParams (Text.pack why)
-    (_, Right path) -> asked c path
+    (_, Right path) -> asked now c path waitingRequest session
   where
     refusals path = snd (Schedule.refuseWaiting Schedule.tooLate path session)
     refuse code why = (session, [Send (Refusal ident (Failure code why))])
-    asked c path = case Map.lookup path (documents session) of
-      Nothing -> (session, [Send (Result ident Null)])
-      Just o
-        | OpenDocument.isReady (Request.need name) o ->
-          (session, [Send (Schedule.answer c o ident name params)])
-        | otherwise -> (adjusted path waits session, [])
-    -- The analysis begins now, because the user waits for the answer.
-    waits o =
-      o
-        { waiting =
-            WaitingRequest
-              { identifier = ident,
-                method = name,
-                parameters = params,
-                refusedAt = now `plus` Schedule.patience (Request.need name)
-              } :
-            waiting o,
-          due = now <$ due o
+    waitingRequest =
+      WaitingRequest
+        { identifier = ident,
+          method = name,
+          parameters = params,
+          refusedAt = now `plus` Schedule.patience (Request.need name)
         }
+
+-- | Answers a request about the document with this path, or lets it wait for results.
+asked :: Milliseconds -> Client -> Text -> WaitingRequest -> Session -> (Session, [Effect])
+asked now c path r session = case Map.lookup path (documents session) of
+  Nothing -> (session, [Send (Result (identifier r) Null)])
+  Just o
+    | OpenDocument.isReady (Request.need (method r)) o ->
+      (session, [Send (Schedule.answer c o (identifier r) (method r) (parameters r))])
+    | otherwise -> (adjusted path waits session, [])
+  where
+    -- The analysis begins now, because the user waits for the answer.
+    waits o = o {waiting = r : waiting o, due = now <$ due o}
 
 -- | The path of the document that the parameters of a message name.
 named :: Value -> Parser Text

@@ -207,7 +207,8 @@ toReport err = case err of
     (at region "E1002" (quote key <> " is no key of " <> section))
       { message = ["The keys of " <> section <> " are " <> Text.intercalate ", " known <> "."],
         fixes = nearestFixes region key known,
-        hints = ["Write one of them, or leave the line out."]
+        hints =
+          ["Write one of them, or leave the line out." | null (nearestFixes region key known)]
       }
   Twice region what first ->
     (at region "E1003" (what <> " is given twice"))

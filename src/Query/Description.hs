@@ -22,7 +22,7 @@ import Frame.FeedCode qualified as FeedCode
 import Machine.BuiltIn qualified as BuiltIn
 import Machine.Machine (Machine, MachineName (..))
 import Machine.Machine qualified as Machine
-import Part.ContourError (ContourFault (..), LinkFault (..))
+import Part.ContourError (ContourFault (..), FittingFillets (..), LinkFault (..))
 import Part.Error (ValueFact (..))
 import Part.Error qualified as Part
 import Part.FromChecked qualified as Part
@@ -168,9 +168,11 @@ largestFillet now written = listToMaybe (concatMap (found . Part.fact) mistakes)
         Nothing -> []
         Just checked -> errors (Part.evaluate checked)
     found fact = case fact of
-      InContour (NotLinked _ (NoFillet _ _ (Just r))) -> [r]
-      InContour (Overrun _ _ _ _ (Just r)) -> [r]
+      InContour (NotLinked _ (NoFillet _ _ (Just fitting) _)) -> here fitting
+      InContour (Overrun _ _ _ _ (Just fitting)) -> here fitting
       _ -> []
+    here (FittingFillets fillets) =
+      [r | (place, _, r) <- fillets, Region.start place <= from, from <= Region.end place]
 
 -- Machining
 

@@ -4,6 +4,7 @@ module Query.Symbol
   ( DocumentSymbol (..),
     SymbolKind (..),
     symbols,
+    present,
     flattened,
     matching,
   )
@@ -17,6 +18,8 @@ import Data.List.NonEmpty qualified as NonEmpty
 import Data.Maybe (mapMaybe)
 import Data.Text (Text)
 import Data.Text qualified as Text
+import Query.RegionMap (RegionMap)
+import Query.RegionMap qualified as RegionMap
 import Query.Snapshot (Snapshot (..))
 import Query.SyntaxWalk qualified as SyntaxWalk
 import Surface.Syntax (Program (..), Statement, Statement_ (..))
@@ -58,6 +61,34 @@ matching query now =
       (Nothing, _) -> True
       (Just _, Nothing) -> False
       (Just (c, more), Just (d, rest)) -> (if c == d then more else wanted) `isWithin` rest
+
+-- | The symbols of the present text. If it has no syntax tree, perhaps because it is not analysed
+-- yet, they are those of the snapshot @before@, at the corresponding places.
+present :: Snapshot -> Maybe Snapshot -> [DocumentSymbol]
+present now before = case before of
+  Just old
+    | null (statements (program now)) ->
+      mapMaybe (moved (RegionMap.between (textOf old) (textOf now))) (symbols old)
+  _ -> symbols now
+  where
+    textOf = Region.text . source
+
+-- | The symbol at the corresponding place; nothing if its name or one of its ends has changed.
+moved :: RegionMap -> DocumentSymbol -> Maybe DocumentSymbol
+moved regionMap s = do
+  whole' <- ends (whole s)
+  selection' <- RegionMap.forward regionMap (selection s)
+  Just
+    s
+      { whole = whole',
+        selection = selection',
+        children = mapMaybe (moved regionMap) (children s)
+      }
+  where
+    ends (Region from to) = do
+      begins <- RegionMap.forward regionMap (Region from from)
+      ends' <- RegionMap.forward regionMap (Region to to)
+      Just (Region.merge begins ends')
 
 -- | The symbol of a statement; 'Nothing' if it has none. A definition is shown by its name. Any
 -- other statement is shown by the beginning of its text. For @mill@ and @turn@ this text ends with

@@ -148,9 +148,11 @@ onItself :: Milling -> Region -> Error -> Error
 onItself milling word e = case e of
   CutsPart _ _ element deep _ _ _
     | value (side milling) == On,
-      any ((== Part.origin element) . Part.origin) (elements (contour milling)) ->
+      any (isSame (Part.segment element) . Part.segment) (elements (contour milling)) ->
       MillsItself word (region (side milling)) element deep (Part.ends (contour milling))
   _ -> e
+  where
+    isSame a b = a == b || Segment.reverse a == b
 
 -- | Adds the beginning of the contour to an intrusion of the move @m@ that leads to it. The
 -- cutter's centre has to keep the distance @kept@ from the contour. @isClear@ is true of moves that

@@ -34,7 +34,7 @@ spec = do
   it "a renaming that is not possible is refused with the reason" $ do
     asked "textDocument/rename" ["newName" .= ("mill" :: Text)] `shouldSatisfy` isLeft
     [why | Left (Failure InvalidParams why) <- [ask' "textDocument/prepareRename" (0, 1) []]]
-      `shouldBe` ["Error in $: there is no name here"]
+      `shouldBe` ["there is no name here"]
   where
     references isWanted =
       asked "textDocument/references" ["context" .= object ["includeDeclaration" .= isWanted]]

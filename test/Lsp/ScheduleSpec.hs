@@ -24,6 +24,14 @@ spec = do
         (field "line" . field "start" . field "range")
         (ask "textDocument/definition" (about addressOf (8, 8)) talk)
         `shouldBe` Right (Number 7)
+    it "for the outline is answered at once, with the positions moved" $ do
+      let talk = replace addressOf 2 ("\n" <> right) (slow settledRight)
+          starts v = [field "line" (field "start" (field "range" (field "location" s))) | s <- v]
+      fmap (starts . listed) (ask "textDocument/documentSymbol" (about addressOf (0, 0)) talk)
+        `shouldBe` Right [Number 0, Number 7, Number 8]
+    it "for symbols of all documents is answered from their last snapshots" $ do
+      let found = ask "workspace/symbol" (object ["query" .= ("b" :: Text)]) settledRight
+      fmap (map (field "name") . listed) found `shouldBe` Right [String "b"]
     it "for formatting waits for the analysis of the present text" $ do
       let talk = format 1 (replace addressOf 2 (right <> "let  d=1\n") (slow settledRight))
       outcomes talk `shouldBe` []

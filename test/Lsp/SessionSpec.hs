@@ -144,7 +144,7 @@ spec = do
     it "have hints in the message, and related regions too if the client cannot show them" $
       map message (squiggles (header <> "let a = 1\nlet a = 2\n"))
         `shouldBe` [ "‘a’ is defined twice\ndefined again here\nline 7: first defined here\nhint: \
-                     \Give one of them another name."
+                     \Name the second one a1.\nhint: Leave the second one out."
                    ]
     it "have related regions of their own if the client can show them" $ do
       let talk =

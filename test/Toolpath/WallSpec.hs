@@ -97,8 +97,10 @@ markedApart part = part {operations = zipWith marked [1 ..] (operations part)}
 -- | The error with the regions of elements as the program has them.
 unmarked :: Error -> Error
 unmarked e = case e of
-  CutsPart at move element deep how p -> CutsPart at move (original element) deep how p
-  HoleCuts at centre element deep -> HoleCuts at centre (original element) deep
+  CutsPart at move element deep how p begins ->
+    CutsPart at move (original element) deep how p begins
+  HoleCuts at centre element deep drill size ->
+    HoleCuts at centre (original element) deep drill size
   MillsAnother at along element deep p -> MillsAnother at (inText along) (original element) deep p
   _ -> e
   where

@@ -111,6 +111,8 @@ export class Server implements vscode.Disposable {
       documentSelector: [
         { scheme: 'file', language: 'part' },
         { scheme: 'untitled', language: 'part' },
+        { scheme: 'file', language: 'partc-machine' },
+        { scheme: 'file', language: 'partc-sheet' },
       ],
       // The problem matcher has the same name, so that a report of `partc compile` replaces that of the server.
       diagnosticCollectionName: 'partc',
