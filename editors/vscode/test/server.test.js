@@ -4,6 +4,7 @@ const assert = require('node:assert')
 const { spawnSync } = require('child_process')
 const fs = require('fs')
 const path = require('path')
+const { isDeepStrictEqual } = require('util')
 const { activate, children, deactivate, partc, repository, stub, temporary, vscode } = require('./harness')
 
 const setUp = () => {
@@ -56,12 +57,18 @@ function shown(document) {
 const flange = fs.readFileSync(path.join(repository, 'examples', 'flange.part'), 'utf8')
 const faulty = flange.replace('fillet -36', 'fillet -3')
 
+// Waits until the diagnostics are the reports of `partc check`. Those of the toolpath come after the others.
+function areReported(document, file) {
+  const expected = reports(file)
+  assert.ok(expected.length > 0)
+  return stub.until(() => isDeepStrictEqual(shown(document), expected), 'the diagnostics are those of partc check')
+}
+
 test('the diagnostics are those of partc check, and vanish with the mistake', async () => {
   const file = temporary('flange.part', faulty)
   const document = stub.open(file, 'part')
   const context = await activate()
-  await stub.until(() => stub.diagnostics(document).length > 0, 'there are diagnostics')
-  assert.deepStrictEqual(shown(document), reports(file))
+  await areReported(document, file)
   assert.strictEqual(shown(document)[0].code, 'E0322')
 
   stub.edit(document, 'fillet -3 ', 'fillet -36 ')
@@ -82,8 +89,7 @@ test('positions after letters of two UTF-16 units are right', async () => {
   const file = temporary('wide.part', flange.replace('cw boss(a - 90)', '/* 😀я */ cw boss(a - 90) nowhere'))
   const document = stub.open(file, 'part')
   const context = await activate()
-  await stub.until(() => stub.diagnostics(document).length > 0, 'there are diagnostics')
-  assert.deepStrictEqual(shown(document), reports(file))
+  await areReported(document, file)
   await deactivate(context)
   stub.close(document)
 })

@@ -374,6 +374,8 @@ module.exports = {
   TextEdit: record('range', 'newText'),
   Diagnostic: record('range', 'message', 'severity'),
   DiagnosticRelatedInformation: record('location', 'message'),
+  SemanticTokensLegend: record('tokenTypes', 'tokenModifiers'),
+  SemanticTokens: record('data', 'resultId'),
   SymbolInformation: record('name', 'kind', 'containerName', 'location'),
   CompletionItem: record('label', 'kind'),
   CodeLens: record('range', 'command'),
@@ -481,6 +483,11 @@ module.exports = {
     registerFoldingRangeProvider: register('foldingRange'),
     registerSelectionRangeProvider: register('selectionRange'),
     registerInlayHintsProvider: register('inlayHint'),
+    registerCodeLensProvider: register('codeLens'),
+    registerDocumentLinkProvider: register('documentLink'),
+    registerDocumentSemanticTokensProvider: register('semanticTokens'),
+    registerOnTypeFormattingEditProvider: register('onTypeFormatting'),
+    registerWorkspaceSymbolProvider: (provider) => register('workspaceSymbol')('*', provider),
   },
 
   tasks: {
