@@ -425,11 +425,12 @@ exactFeed (Feed f) = Decimal.exact f <> " mm/min"
 usual :: Mm
 usual = Mm 0.02
 
--- | Text of a start: its coordinates, and its height unless that is 0.
+-- | Text of a start: its coordinates, and its height unless that is 0. Six decimals are finer than
+-- any pulse.
 startText :: Point -> Mm -> Text
 startText p (Mm z) =
   "("
-    <> Text.intercalate ", " (map Decimal.exact ([Vec.x p, Vec.y p] <> [z | z /= 0]))
+    <> Text.intercalate ", " (map (Decimal.short 6) ([Vec.x p, Vec.y p] <> [z | z /= 0]))
     <> ")"
 
 -- | Fix that leaves the compensation to the compiler. @asked@ is the setting that asks the machine

@@ -146,12 +146,13 @@ missingWords region token words' around = case (filter isPossible words', token)
           `elem` ["diameter", "nose"]
     -- True if the block of settings begins at the token or after it.
     hasBlock = Symbol "{" `elem` take 1 (map shape (after around)) || token == Symbol "{"
+    isLineEnd = all newLine (take 1 (after around))
     isPlainValue = case token of
       Number _ _ -> True
       Symbol "(" -> True
       _ -> False
     put w
-      | hasBlock,
+      | hasBlock || isLineEnd,
         Word word <- token =
         Fix.exchange ("Write " <> w <> " instead of " <> word <> ".") region w
       | isLineStart around,
