@@ -195,6 +195,76 @@ async def test_formatting_restores_the_layout(client):
 
 
 @pytest.mark.asyncio
+async def test_the_structure_of_the_text(client):
+    await open_text(client, FLANGE)
+    folds = await client.text_document_folding_range_async(types.FoldingRangeParams(text_document=DOCUMENT))
+    contour = place(FLANGE, "contour outline").line
+    assert contour in [f.start_line for f in folds]
+    at = place(FLANGE, "fillet -36", 8)
+    (selection,) = await client.text_document_selection_range_async(
+        types.SelectionRangeParams(text_document=DOCUMENT, positions=[at])
+    )
+    sizes = []
+    while selection:
+        sizes.append((selection.range.end.line - selection.range.start.line))
+        selection = selection.parent
+    assert len(sizes) >= 3 and sizes == sorted(sizes)
+    tokens = await client.text_document_semantic_tokens_full_async(
+        types.SemanticTokensParams(text_document=DOCUMENT)
+    )
+    assert len(tokens.data) > 0 and len(tokens.data) % 5 == 0
+
+
+@pytest.mark.asyncio
+async def test_lenses_hints_and_links(client):
+    await open_text(client, FLANGE)
+    lenses = await client.text_document_code_lens_async(types.CodeLensParams(text_document=DOCUMENT))
+    assert any("lkp-01f" in lens.command.title for lens in lenses)
+    await client.text_document_inlay_hint_async(
+        types.InlayHintParams(
+            text_document=DOCUMENT,
+            range=types.Range(start=types.Position(line=0, character=0), end=types.Position(line=20, character=0)),
+        )
+    )
+    importing = 'part p\nimport "pins.part"\n'
+    await change(client, 2, [whole(importing)])
+    links = await client.text_document_document_link_async(types.DocumentLinkParams(text_document=DOCUMENT))
+    assert [link.range.start.line for link in links] == [1]
+
+
+@pytest.mark.asyncio
+async def test_a_new_line_closes_a_block(client):
+    text = FLANGE + "\ncontour more closed {\n"
+    await open_text(client, text)
+    edits = await client.text_document_on_type_formatting_async(
+        types.DocumentOnTypeFormattingParams(
+            text_document=DOCUMENT,
+            position=types.Position(line=text.count("\n"), character=0),
+            ch="\n",
+            options=types.FormattingOptions(tab_size=2, insert_spaces=True),
+        )
+    )
+    assert "}" in "".join(e.new_text for e in edits or [])
+
+
+@pytest.mark.asyncio
+async def test_symbols_of_all_documents(client):
+    await open_text(client, FLANGE)
+    found = await client.workspace_symbol_async(types.WorkspaceSymbolParams(query="outl"))
+    assert "outline" in [s.name for s in found]
+
+
+@pytest.mark.asyncio
+async def test_what_is_at_a_position(client):
+    await open_text(client, FLANGE)
+    at = place(FLANGE, "contour outline", 9)
+    found = await client.protocol.send_request_async(
+        "partc/at", {"textDocument": {"uri": URI}, "position": {"line": at.line, "character": at.character}}
+    )
+    assert found.title == "outline" and "<svg" in found.svg
+
+
+@pytest.mark.asyncio
 async def test_a_machine_description_has_diagnostics_and_completion(client):
     uri = "file:///tmp/mine.machine"
     text = 'machine mine "a mill" reconstructed "none"\naxis x {\n  puls 0.01 mm\n}\n'
