@@ -184,4 +184,6 @@ dependsOn path o = any ((path `elem`) . Snapshot.dependencies) (latest o)
 
 -- | True if the results of a document depend on other files.
 hasDependencies :: OpenDocument -> Bool
-hasDependencies = any (not . null . Snapshot.dependencies) . latest
+hasDependencies o = case latest o of
+  Just snapshot -> not (null (Snapshot.dependencies snapshot))
+  Nothing -> False

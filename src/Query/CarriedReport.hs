@@ -14,7 +14,7 @@ import Query.RegionMap (RegionMap)
 import Query.RegionMap qualified as RegionMap
 import Query.Snapshot (Snapshot)
 import Query.Snapshot qualified as Snapshot
-import Report.Fix (Fix (..), FixEdit (..))
+import Report.Fix (Fix (..), FixEdit (..), FixText (..))
 import Report.Report (Label (..), Report (..), ReportPlace (..))
 import Report.Report qualified as Report
 
@@ -40,7 +40,11 @@ moved regionMap r = case place r of
           others = [Label there' note | Label at note <- others r, Just there' <- [forward at]],
           fixes = mapMaybe fix (fixes r)
         }
-    fix f = (\edits -> f {edits}) <$> traverse edit (edits f)
-    edit e = (\replaced -> e {replaced}) <$> forward (replaced e)
+    fix f = withEdits f <$> traverse edit (edits f)
+    withEdits f moved' = f {edits = moved'}
+    edit e = FixEdit <$> forward (replaced e) <*> traverse part (parts e)
+    part p = case p of
+      Written _ -> Just p
+      Copied region -> Copied <$> forward region
     forward :: Region -> Maybe Region
     forward = RegionMap.forward regionMap

@@ -4,6 +4,7 @@ module Lsp.ScheduleSpec (spec) where
 
 import Data.Aeson (Value (..), object, (.=))
 import Data.Aeson qualified as Aeson
+import Data.Maybe qualified as Maybe
 import Data.Text (Text)
 import Data.Text qualified as Text
 import Lsp.Conversation (Effect (..), WorkKind (..), WorkOrder (..))
@@ -181,7 +182,7 @@ orders talk = concatMap order (heard talk)
 
 -- | The work that has begun after the worker became slow.
 analyses :: Talk -> [(WorkKind, Text)]
-analyses talk = [work | Just work <- orders talk]
+analyses = Maybe.catMaybes . orders
 
 header, right, wrong, wrongSide :: Text
 header =

@@ -1,6 +1,7 @@
 -- | Keys of machine descriptions at the cursor.
 module Query.DescriptionKeySpec (spec) where
 
+import Data.Maybe (isNothing)
 import Data.Text qualified as Text
 import Machine.BuiltIn qualified as BuiltIn
 import Query.DescriptionKey (DescriptionKeys (..))
@@ -22,7 +23,7 @@ spec = do
       | name <- BuiltIn.names,
         Just text <- [BuiltIn.text name],
         (line, at) <- statementsOf text,
-        DescriptionKey.keysAt text at == Nothing
+        isNothing (DescriptionKey.keysAt text at)
     ]
       `shouldBe` []
   where
