@@ -409,6 +409,20 @@ spec = do
     it "a wrong command line has the exit status 2" $ do
       (code, _, _) <- partc ["compile"]
       code `shouldBe` ExitFailure 2
+    it "an option that a subcommand lacks is named, with the one that may be meant" $ do
+      let lines' command =
+            (\(code, _, err) -> (code, lines err)) <$> partc (words command)
+      lines' "compile a.part --machine n55"
+        `shouldReturn` ( ExitFailure 2,
+                         [ "partc compile has no option --machine",
+                           "Write -t n55.",
+                           "‘partc compile --help’ lists its options."
+                         ]
+                       )
+      take 2 . snd <$> lines' "plot --outptu=a.svg a.part"
+        `shouldReturn` ["partc plot has no option --outptu", "Write -o a.svg."]
+      take 2 . snd <$> lines' "check --quite a.part"
+        `shouldReturn` ["partc check has no option --quite", "Write -q."]
   it "every subcommand has an example in its help" $
     forM_
       [ "compile",
