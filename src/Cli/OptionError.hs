@@ -22,7 +22,7 @@ data OptionForm = OptionForm {names :: [String], value :: String}
 -- mistakes, and for an option that stands before the subcommand.
 unknownOption :: ParserInfo a -> String -> [String] -> Maybe String
 unknownOption info failure arguments = do
-  typed <- fst . break (== '\'') <$> stripPrefix "Invalid option `" failure
+  typed <- takeWhile (/= '\'') <$> stripPrefix "Invalid option `" failure
   let subcommands = subcommandsOf info
       (before, rest) = break (`elem` map fst subcommands) arguments
   (command, behind) <- listToMaybe [(c, others) | typed `notElem` before, c : others <- [rest]]

@@ -225,6 +225,12 @@ spec = do
       (code, _, err) <- partc ["check", "examples/stub.part", "-t", "lkp-99"]
       code `shouldBe` ExitFailure 1
       err `shouldSatisfy` isInfixOf "E0805"
+    it "points at the command line for a machine that it names, with the nearest name" $ do
+      (_, _, err) <- partc ["check", "examples/stub.part", "-t", "n-55"]
+      err `shouldSatisfy` isInfixOf "--> the command line"
+      err `shouldSatisfy` isInfixOf "hint: Write -t n55."
+      (_, _, err') <- partc ["machines", "n-55"]
+      err' `shouldSatisfy` isInfixOf "hint: Write n55."
   describe "verify" $ do
     it "proves its own tape, and disproves one with a changed digit with status 3" $
       inFolder $ \folder -> do
