@@ -2,6 +2,7 @@
 module Main (main) where
 
 import Base.Crash (Bug)
+import Cli.OptionError qualified as OptionError
 import Cli.Options qualified as Options
 import Cli.Output (Exit (..))
 import Cli.Subcommand qualified as Subcommand
@@ -18,7 +19,7 @@ import Options.Applicative qualified as Opt
 import Paths_partc (version)
 import System.Environment (getArgs, getProgName)
 import System.Exit (ExitCode (..), exitWith)
-import System.IO (hPutStrLn, hSetEncoding, stderr, stdin, stdout)
+import System.IO (hPutStr, hPutStrLn, hSetEncoding, stderr, stdin, stdout)
 
 main :: IO ()
 main = do
@@ -32,17 +33,20 @@ main = do
 -- | Parses the command line and runs its subcommand.
 work :: IO ExitCode
 work = do
-  parsed <-
-    Opt.execParserPure (Opt.prefs Opt.showHelpOnEmpty) (Options.parser versionText)
-      <$> getArgs
+  arguments <- getArgs
   name <- getProgName
-  statusOf <$> case parsed of
+  let parsed = Opt.execParserPure (Opt.prefs Opt.showHelpOnEmpty) parser arguments
+  case parsed of
     -- Optparse-applicative treats --help and --version as failures with the status of success.
     Opt.Failure request
-      | (text, ExitSuccess) <- Opt.renderFailure request name -> Subcommand.showHelp text
-    _ -> Opt.handleParseResult parsed >>= Subcommand.run versionText
+      | (text, ExitSuccess) <- Opt.renderFailure request name -> statusOf <$> Subcommand.showHelp text
+      | (text, status) <- Opt.renderFailure request name,
+        Just report <- OptionError.unknownOption parser text arguments ->
+        status <$ hPutStr stderr report
+    _ -> statusOf <$> (Opt.handleParseResult parsed >>= Subcommand.run versionText)
   where
     versionText = showVersion version
+    parser = Options.parser versionText
 
 -- | The exit status: 0 for success, 1 for errors, 3 for a tape that @verify@ has proven wrong.
 statusOf :: Exit -> ExitCode

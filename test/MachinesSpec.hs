@@ -110,3 +110,4 @@ isPlaced r = case Report.place r of
   InSource _ -> True
   InTape _ -> False
   InFile -> False
+  InCommandLine -> False

@@ -91,6 +91,7 @@ isPlaced r = case Report.place r of
   InSource _ -> True
   InTape _ -> False
   InFile -> False
+  InCommandLine -> False
 
 -- | A job for the machine that the program names, or for lkp-01f if it names none.
 job :: [(Text, Text)] -> LoadedProgram -> Job

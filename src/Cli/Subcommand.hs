@@ -325,7 +325,7 @@ machines reporter wanted asText = case wanted of
     case (Target.machineNamed descriptions machineName, lookup machineName descriptions) of
       (Left (Project.DescriptionWrong _ description text reports), _) ->
         Failed <$ Output.showReports reporter description (Region.fromText description text) reports
-      (Left e, _) -> failWithReport reporter "" (Project.toReport e)
+      (Left e, _) -> failWithReport reporter "" (Project.argumentReport e)
       (Right _, Just (Right text)) | asText -> printResult reporter text
       (Right machine, _)
         | asText ->

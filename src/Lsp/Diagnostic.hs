@@ -113,6 +113,7 @@ shownAt snapshot place = case place of
       )
   InTape _ -> (top, "")
   InFile -> (top, "")
+  InCommandLine -> (top, "")
   where
     source = Snapshot.source snapshot
 

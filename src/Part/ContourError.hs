@@ -7,6 +7,7 @@ module Part.ContourError
     LinkFault (..),
     FittingFillets (..),
     ContourEnd (..),
+    apart,
     toReport,
   )
 where
@@ -14,7 +15,7 @@ where
 import Base.Decimal qualified as Decimal
 import Base.Name (Name (..))
 import Base.Quantity (Mm (..))
-import Base.Region (Region (..))
+import Base.Region (Located, Region (..))
 import Data.List (nub)
 import Data.List.NonEmpty (NonEmpty)
 import Data.Text qualified as Text
@@ -22,7 +23,7 @@ import Geometry.Carrier (Circle (..))
 import Geometry.ElementCarrier (ElementCarrier (..))
 import Geometry.Vec (Point)
 import Geometry.Vec qualified as Vec
-import Part.ErrorText (at, describe)
+import Part.ErrorText (alternatively, at, describe)
 import Part.LinkError (FittingFillets (..), LinkFault (..), Neighbours (..))
 import Part.LinkError qualified as LinkError
 import Report.Fix (Fix)
@@ -77,6 +78,14 @@ data ContourFault
 data ContourEnd = ContourEnd {item :: Region, isBeginning :: Bool, circle :: ElementCarrier}
   deriving stock (Eq, Show)
 
+-- | The elements before and after a link at which they do not reach each other. 'Nothing' for other
+-- faults.
+apart :: ContourFault -> Maybe (Located ElementCarrier, Located ElementCarrier)
+apart fault = case fault of
+  NotLinked j (NoMeeting _) -> Just (before j, after j)
+  NotLinked j (NotSmooth _ _) -> Just (before j, after j)
+  _ -> Nothing
+
 -- | The report of a fault.
 toReport :: ContourFault -> Report
 toReport fault = case fault of
@@ -85,13 +94,15 @@ toReport fault = case fault of
   LoneElement region carrier closure ->
     (at region "E0308" ("a closed contour cannot consist of " <> describe carrier <> " alone"))
       { message = ["Only a circle or a closed curve closes by itself."],
-        fixes =
-          [ Fix.proposed (Fix.exchange "Make the contour open." word "open")
-            | isLong carrier,
-              Just word <- [closure]
-          ],
-        hints = ["Or add the other elements of the contour."]
+        fixes = opened,
+        hints = [alternatively opened "Add the other elements of the contour."]
       }
+    where
+      opened =
+        [ Fix.proposed (Fix.exchange "Make the contour open." word "open")
+          | isLong carrier,
+            Just word <- [closure]
+        ]
   NoLength region ->
     at region "E0328" "the contour has no length"
   LinkOfLoneCircle region ->

@@ -27,7 +27,7 @@ import Part.ContourError (ContourFault)
 import Part.ContourError qualified as ContourError
 import Part.CurveError (CurveMistake)
 import Part.CurveError qualified as CurveError
-import Part.ErrorText (at)
+import Part.ErrorText (alternatively, at)
 import Part.Parameter (Domain, LimitedQuantity, Range (..), WholeNumber)
 import Part.Parameter qualified as Parameter
 import Part.Part (CutterKind (..))
@@ -213,9 +213,11 @@ factReport arguments fact = case fact of
   StepsUndercut region steps ->
     (at region "E0360" "a cutter that is widest at its tip cannot go down in steps")
       { message = ["Above the last depth its tip would cut into the wall that leans over it."],
-        fixes = [Fix.proposed (Fix.removal "Leave the step out: one pass." s) | Just s <- [steps]],
-        hints = ["Or clear the way before with an upright mill."]
+        fixes = inOnePass,
+        hints = [alternatively inOnePass "Clear the way before with an upright mill."]
       }
+    where
+      inOnePass = [Fix.proposed (Fix.removal "Leave the step out: one pass." s) | Just s <- [steps]]
   InConstruction fault -> ConstructionError.toReport arguments fault
   InContour fault -> ContourError.toReport fault
   InCurve fault -> CurveError.toReport fault

@@ -2,6 +2,7 @@
 -- constructions, and give limits rounded to three decimals.
 module Part.ErrorText
   ( at,
+    alternatively,
     describe,
     Candidate (..),
     listed,
@@ -23,12 +24,20 @@ import Geometry.MeasuredPolyarc qualified as MeasuredPolyarc
 import Geometry.Tolerance qualified as Tolerance
 import Geometry.Vec (Point)
 import Geometry.Vec qualified as Vec
+import Report.Fix (Fix)
 import Report.Report (Report (..), ReportCode, ReportPlace (..), report)
 import Report.Report qualified as Report
 
 -- | An error report without any text except its title.
 at :: Region -> ReportCode -> Text -> Report
 at region code = report Report.Error code (InSource region)
+
+-- | The text of a hint that stands below fixes as another way. Without fixes it is the hint alone;
+-- the hint is a sentence that begins with a capital letter.
+alternatively :: [Fix] -> Text -> Text
+alternatively fixes hint
+  | null fixes = hint
+  | otherwise = "Or " <> Text.toLower (Text.take 1 hint) <> Text.drop 1 hint
 
 -- | The description of an element's carrier, with its coordinates.
 describe :: ElementCarrier -> Text

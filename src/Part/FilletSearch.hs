@@ -1,6 +1,7 @@
 -- | Search for fillets with which a contour has no fault, for reports on fillets that do not fit.
 module Part.FilletSearch
-  ( largest,
+  ( inPlaceOf,
+    largest,
     turned,
   )
 where
@@ -39,6 +40,22 @@ turned fits linked isMeant =
       Just (at, Fillet sense r) | at `elem` chosen -> w {link = Just (at, Fillet (other sense) r)}
       _ -> w
     other sense = case sense of Clockwise -> CounterClockwise; CounterClockwise -> Clockwise
+
+-- | A fillet that, in place of the link in the given region, leaves the contour without a fault: the
+-- largest of a few round radii that fits.
+inPlaceOf ::
+  (NonEmpty LinkedElement -> Bool) -> NonEmpty LinkedElement -> Region -> Maybe FittingFillets
+inPlaceOf fits linked at =
+  listToMaybe
+    [ FittingFillets [(at, sense, r)]
+      | r <- [Mm 10, Mm 5, Mm 2, Mm 1],
+        sense <- [Clockwise, CounterClockwise],
+        fits (fmap (rounded sense r) linked)
+    ]
+  where
+    rounded sense r w
+      | fmap fst (link w) == Just at = w {link = Just (at, Fillet sense r)}
+      | otherwise = w
 
 -- | The fillets of a contour: region, sense and radius.
 filletsOf :: NonEmpty LinkedElement -> [(Region, Sense, Mm)]

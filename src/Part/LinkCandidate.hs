@@ -179,7 +179,7 @@ smoothLines j l m
   | otherwise = case Intersection.lines l m of
     Same | Vec.isNear (Carrier.to l) (Carrier.from m) -> Right (through (Carrier.to l))
     Same -> Right (through (Carrier.from m))
-    Apart gap -> Left (NotLinked j (NotSmooth gap))
+    Apart gap -> Left (NotLinked j (NotSmooth gap Nothing))
     _ -> meet j [] Nothing
 
 -- | The joint of a smooth link. The first pair is the point and the direction at the end of the
@@ -189,7 +189,7 @@ smoothLines j l m
 smoothEnds :: Neighbours -> (Point, Vec) -> (Point, Vec) -> Either ContourFault Joint
 smoothEnds j (p, u) (q, v)
   | Vec.distance p q > Tolerance.smoothGap =
-    Left (NotLinked j (NotSmooth (Vec.distance p q)))
+    Left (NotLinked j (NotSmooth (Vec.distance p q) Nothing))
   | abs angle > pi / 2 = Left (NotLinked j TurnsBack)
   | abs angle > allowed = Left (NotLinked j (Kinked (Rad (abs angle)) False))
   | otherwise = Right (Joint p q Nothing)
@@ -242,7 +242,7 @@ smoothCircles j (s, Circle c (Mm r)) (t, Circle d (Mm q))
 touching :: Neighbours -> Double -> Point -> Either ContourFault Joint
 touching j gap p
   | abs gap <= tolerance = Right (through p)
-  | otherwise = Left (NotLinked j (NotSmooth (Mm (abs gap))))
+  | otherwise = Left (NotLinked j (NotSmooth (Mm (abs gap)) Nothing))
   where
     Mm tolerance = Tolerance.coincident
 

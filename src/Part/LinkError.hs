@@ -29,7 +29,7 @@ import Geometry.ElementCarrier (ElementCarrier (..))
 import Geometry.MeasuredPolyarc qualified as MeasuredPolyarc
 import Geometry.Vec (Point)
 import Geometry.Vec qualified as Vec
-import Part.ErrorText (andMore, at, describe, downTo)
+import Part.ErrorText (alternatively, andMore, at, describe, downTo)
 import Part.Tolerance qualified as Tolerance
 import Report.Fix (Fix)
 import Report.Fix qualified as Fix
@@ -57,8 +57,9 @@ data LinkFault
   | -- | the neighbours meet in these points, and the link does not say which of them it means
     AmbiguousMeeting [Point]
   | -- | the neighbours of a smooth link cross or lie apart, but do not touch: the distance by which
-    -- one of them would have to move to touch the other
-    NotSmooth Mm
+    -- one of them would have to move to touch the other, and a fillet in place of the link with
+    -- which the contour has no fault
+    NotSmooth Mm (Maybe FittingFillets)
   | -- | the neighbours of a smooth link touch at a corner: the angle between their directions, and
     -- true if the contour has no fault without this link
     Kinked Rad Bool
@@ -92,14 +93,18 @@ toReport j fault = case fault of
     (titled "E0311" (both j <> " do not meet: they are " <> Decimal.nonZeroMm gap <> " apart"))
       { controlStop = Just "17533",
         fixes = joinFixes j <> tangentFixes j,
-        hints = ["Or correct the numbers of one of the two, so that they meet."]
+        hints =
+          [ alternatively
+              (joinFixes j <> tangentFixes j)
+              "Correct the numbers of one of the two, so that they meet."
+          ]
       }
   ParallelLines gap ->
     (titled "E0312" ("these lines are parallel, " <> Decimal.mm gap <> " apart, and do not meet"))
       { controlStop = Just "17533",
         message = ["A closed contour joins its last element to its first." | isClosing j],
         fixes = joinFixes j,
-        hints = ["Or write the edge that is missing between them."]
+        hints = [alternatively (joinFixes j) "Write the edge that is missing between them."]
       }
   SameCurve isEnough ->
     (titled "E0313" "these two elements lie on the same curve, so they have no one point in common")
@@ -111,11 +116,15 @@ toReport j fault = case fault of
       { message = [meetingPoints points],
         fixes = map (nearFix j) (take mostPoints points)
       }
-  NotSmooth gap ->
+  NotSmooth gap rounded ->
     (titled "E0315" (both j <> " do not touch: they miss it by " <> Decimal.mm gap))
       { controlStop = Just "17533",
-        fixes = map (nearFix j) (crossings j),
-        hints = ["Or correct the numbers, or join them with a fillet: write fillet and a radius."]
+        fixes = [filletsFix "Join them with a fillet: " fillets | Just fillets <- [rounded]],
+        hints =
+          [ alternatively
+              (maybe [] (pure . filletsFix "") rounded)
+              "Correct the numbers of one of the two, so that they touch."
+          ]
       }
   Kinked angle isEnough -> kinkedReport j angle isEnough
   TurnsBack ->
@@ -163,12 +172,18 @@ kinkedReport j angle isEnough =
             <> Decimal.short 2 (degrees Tolerance.smoothTurn)
             <> " deg."
         ],
-      fixes =
-        [ Fix.proposed (Fix.removal "Leave smooth out: there is a corner here." (link j))
-          | isEnough
-        ],
-      hints = ["Or correct the numbers, or round the corner: write fillet and a radius."]
+      fixes = leavingOut,
+      hints =
+        [ alternatively
+            leavingOut
+            "Correct the numbers, or round the corner: write fillet and a radius."
+        ]
     }
+  where
+    leavingOut =
+      [ Fix.proposed (Fix.removal "Leave smooth out: there is a corner here." (link j))
+        | isEnough
+      ]
 
 noTangentReport :: Neighbours -> [(Sense, Sense)] -> Report
 noTangentReport j senses =
@@ -362,15 +377,6 @@ leaveOutSecond j =
   [ Fix.proposed (Fix.removal "Leave the second one out." (snd (items j)))
     | uncurry (/=) (items j)
   ]
-
--- | The points in which two lines or circles cross.
-crossings :: Neighbours -> [Point]
-crossings j = case (value (before j), value (after j)) of
-  (OnLine l, OnLine m) -> Intersection.points (Intersection.lines l m)
-  (OnLine l, OnCircle _ c) -> Intersection.points (Intersection.lineCircle l c)
-  (OnCircle _ c, OnLine l) -> Intersection.points (Intersection.lineCircle l c)
-  (OnCircle _ c, OnCircle _ d) -> Intersection.points (Intersection.circles c d)
-  _ -> []
 
 -- | The words for a sense that a contour writes before a circle, each with its region and its
 -- circle.

@@ -76,11 +76,23 @@ unlinked ends linked = case linked of
   first :| rest ->
     let neighbours = zip (first : rest) (rest <> [first | ends == Closed])
         faults = [(linkRegion a b, f) | (a, b) <- neighbours, Left f <- [jointsOf a b]]
-     in map snd (nubOrdOn pairOf (nubOrdOn fst faults))
+     in oncePerElement (map snd (nubOrdOn pairOf (nubOrdOn fst faults)))
   where
     pairOf (at, f) = case f of
       NotLinked (Neighbours _ (Located a _) (Located b _) _) _ -> (min a b, max a b)
       _ -> (at, at)
+
+-- | Leaves out a fault of two elements that lie apart if the fault before it has one of them, too:
+-- one mistake in the numbers of this element makes both faults.
+oncePerElement :: [ContourFault] -> [ContourFault]
+oncePerElement faults = case faults of
+  f : g : more
+    | Just (_, shared) <- ContourError.apart f,
+      Just (before, _) <- ContourError.apart g,
+      shared == before ->
+      f : oncePerElement more
+  f : more -> f : oncePerElement more
+  [] -> []
 
 -- | Joins the faults of links that have one cause: tangents beside elements that are no circles,
 -- and fillets beside points. The joined fault takes the place of the first one.
@@ -112,6 +124,8 @@ withLargest region ends linked fault = case fault of
           (FilletSearch.largest fits linked [ContourError.link j])
           (FilletSearch.turned fits linked (== ContourError.link j))
       )
+  NotLinked j (NotSmooth gap _) ->
+    NotLinked j (NotSmooth gap (FilletSearch.inPlaceOf fits linked (ContourError.link j)))
   NotLinked j (Kinked angle _) -> NotLinked j (Kinked angle (fits (withoutLink j)))
   NotLinked j (SameCurve _) -> NotLinked j (SameCurve (leavingOutMends j))
   NotLinked j (CoincidentTangent _) -> NotLinked j (CoincidentTangent (leavingOutMends j))

@@ -3,6 +3,7 @@
 module Project.Error
   ( Error (..),
     toReport,
+    argumentReport,
   )
 where
 
@@ -33,9 +34,17 @@ data Error
     NothingToPunch
   deriving stock (Eq, Show)
 
--- | The report of an error.
+-- | The report of an error of a program, or of an option that names its machine.
 toReport :: Error -> Report
-toReport err = case err of
+toReport = reportWith "-t "
+
+-- | The report of an error in the argument of a subcommand that is the name of a machine.
+argumentReport :: Error -> Report
+argumentReport = reportWith ""
+
+-- | The report of an error. @option@ stands before the name of a machine on the command line.
+reportWith :: Text -> Error -> Report
+reportWith option err = case err of
   NoMachine known offset ->
     (wrong "E0804" InFile "the program names no machine")
       { message = ["The machines are: " <> Text.intercalate ", " known <> "."],
@@ -54,7 +63,7 @@ toReport err = case err of
             <> ["Or name it on the command line: -t NAME"]
       }
   UnknownMachine place name known ->
-    (wrong "E0805" (maybe InFile InSource place) ("there is no machine named ‘" <> name <> "’"))
+    (wrong "E0805" (maybe InCommandLine InSource place) ("there is no machine named ‘" <> name <> "’"))
       { message = ["The machines are: " <> Text.intercalate ", " known <> "."],
         fixes =
           [ if isFile
@@ -68,7 +77,7 @@ toReport err = case err of
               n <- take 1 (if isFile then [name] else similar)
           ],
         hints =
-          ["Did you mean ‘" <> n <> "’?" | null place, not isFile, n <- take 1 similar]
+          ["Write " <> option <> n <> "." | null place, not isFile, n <- take 1 similar]
             <> ["Write one of them." | null similar, not isFile]
       }
     where
@@ -77,7 +86,7 @@ toReport err = case err of
   DescriptionMissing place file why ->
     ( wrong
         "E0806"
-        (maybe InFile InSource place)
+        (maybe InCommandLine InSource place)
         ("the machine’s description ‘" <> file <> "’ cannot be read: " <> why)
     )
       { hints =
@@ -88,7 +97,7 @@ toReport err = case err of
   DescriptionWrong place file text reports ->
     ( wrong
         "E0810"
-        (maybe InFile InSource place)
+        (maybe InCommandLine InSource place)
         ("the machine’s description ‘" <> file <> "’ has mistakes")
     )
       { message = [inOneLine file text r | r <- Report.sorted reports],

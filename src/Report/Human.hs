@@ -100,6 +100,7 @@ location Layout {painted, report, source, gutter} path =
       InSource region -> positionText (Region.position source (start region))
       InTape row -> path <> ", row " <> Decimal.whole row
       InFile -> path
+      InCommandLine -> "the command line"
 
 -- | All regions of a report in the order of the source: true for the report's place and false for
 -- others, the number of the line, and the label.
@@ -113,6 +114,7 @@ marksOf source report =
       InSource region -> (True, Label region (label report)) : map (False,) (others report)
       InTape _ -> map (False,) (others report)
       InFile -> map (False,) (others report)
+      InCommandLine -> map (False,) (others report)
 
 -- | Excerpts of the marks of 'marksOf'.
 markedExcerpts :: Layout -> [(Bool, Int, Label)] -> [Marked]
@@ -144,6 +146,7 @@ excerptLines layout@Layout {painted, report, source, gutter, room} before (isMai
       InSource region -> let Position {file} = Region.position source (start region) in file
       InTape _ -> Region.mainFile source
       InFile -> Region.mainFile source
+      InCommandLine -> Region.mainFile source
     role = if isMain then Severe (severity report) else Secondary
     sign = Text.replicate (width e) (if isMain then "^" else "-")
 

@@ -42,6 +42,7 @@ short path source r =
          in file <> ":" <> Decimal.whole line <> ":" <> Decimal.whole column
       InTape row -> path <> ":" <> Decimal.whole row <> ":1"
       InFile -> if path == "" then "partc" else path <> ":1:1"
+      InCommandLine -> "partc"
 
 -- | Renders a report as one JSON object with a line end. Lines count from 1, columns count
 -- characters from 1; the field @end@ is the position after the last character. @path@ is the
@@ -67,11 +68,13 @@ json path source r =
       InSource region -> let Position {file} = Region.position source (start region) in file
       InTape _ -> path
       InFile -> path
+      InCommandLine -> ""
     placed :: Series
     placed = case place r of
       InSource region -> "start" .= position (start region) <> "end" .= position (end region)
       InTape row -> "row" .= row
       InFile -> mempty
+      InCommandLine -> mempty
     position = jsonPosition source
     related (Label region words') =
       let Position {file} = Region.position source (start region)

@@ -47,6 +47,8 @@ data ReportPlace
     InTape Int
   | -- | the file as a whole
     InFile
+  | -- | the command line
+    InCommandLine
   deriving stock (Eq, Ord, Show)
 
 -- | Region of the program with a few words that are printed beside it.

@@ -149,6 +149,7 @@ result indices lines' Filed {path, source, report = r} =
          in Map.lookup file lines' >>= (Vector.!? (line - 1))
       InTape _ -> Nothing
       InFile -> Nothing
+      InCommandLine -> Nothing
     ReportCode code = Report.code r
     sentences = Text.intercalate "\n" (title r : message r <> map ("hint: " <>) (Report.remedies r))
     located = case place r of
@@ -164,6 +165,7 @@ result indices lines' Filed {path, source, report = r} =
         ]
       -- GitHub shows no result without a line, so the first one stands for the file.
       InFile -> [at path (pair "region" (pairs firstLine)) | path /= ""]
+      InCommandLine -> []
     firstLine = foldMap (.= (1 :: Int)) ["startLine", "startColumn", "endLine", "endColumn"]
     own = filter (Fix.isWithin source) (fixes r)
     -- The related locations of a result must differ from one another (3.27.22).

@@ -62,6 +62,7 @@ parseExplained begin text = case drop maxTokens tokens of
       InSource region -> Just region
       InTape _ -> Nothing
       InFile -> Nothing
+      InCommandLine -> Nothing
 
 -- | Parses a text without the lines of another language, for which there is one report. Each of
 -- these lines becomes a broken statement.

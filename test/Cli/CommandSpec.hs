@@ -225,6 +225,12 @@ spec = do
       (code, _, err) <- partc ["check", "examples/stub.part", "-t", "lkp-99"]
       code `shouldBe` ExitFailure 1
       err `shouldSatisfy` isInfixOf "E0805"
+    it "points at the command line for a machine that it names, with the nearest name" $ do
+      (_, _, err) <- partc ["check", "examples/stub.part", "-t", "n-55"]
+      err `shouldSatisfy` isInfixOf "--> the command line"
+      err `shouldSatisfy` isInfixOf "hint: Write -t n55."
+      (_, _, err') <- partc ["machines", "n-55"]
+      err' `shouldSatisfy` isInfixOf "hint: Write n55."
   describe "verify" $ do
     it "proves its own tape, and disproves one with a changed digit with status 3" $
       inFolder $ \folder -> do
@@ -409,6 +415,20 @@ spec = do
     it "a wrong command line has the exit status 2" $ do
       (code, _, _) <- partc ["compile"]
       code `shouldBe` ExitFailure 2
+    it "an option that a subcommand lacks is named, with the one that may be meant" $ do
+      let lines' command =
+            (\(code, _, err) -> (code, lines err)) <$> partc (words command)
+      lines' "compile a.part --machine n55"
+        `shouldReturn` ( ExitFailure 2,
+                         [ "partc compile has no option --machine",
+                           "Write -t n55.",
+                           "‘partc compile --help’ lists its options."
+                         ]
+                       )
+      take 2 . snd <$> lines' "plot --outptu=a.svg a.part"
+        `shouldReturn` ["partc plot has no option --outptu", "Write -o a.svg."]
+      take 2 . snd <$> lines' "check --quite a.part"
+        `shouldReturn` ["partc check has no option --quite", "Write -q."]
   it "every subcommand has an example in its help" $
     forM_
       [ "compile",

@@ -302,6 +302,7 @@ reported text =
       InSource region -> positionIn text (end region)
       InTape _ -> (0, 0)
       InFile -> (0, 0)
+      InCommandLine -> (0, 0)
 
 -- | Texts with errors in most lines.
 broken :: Gen Text

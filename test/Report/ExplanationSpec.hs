@@ -202,3 +202,4 @@ spec = do
       InSource _ -> True
       InTape _ -> False
       InFile -> False
+      InCommandLine -> False
