@@ -72,13 +72,13 @@ checked talk text version edits = case edits of
   where
     settled t now = map snd' (take 1 (reverse (published t))) === [squiggles now]
     snd' (_, _, found) = found
-    isWhole t at = beforePair t at == at
+    isWhole t place = beforePair t place == place
 
 -- | The offset, or the one before it if it lies between CR and LF.
 beforePair :: Text -> Int -> Int
-beforePair text at
-  | at > 0 && Text.take 2 (Text.drop (at - 1) text) == "\r\n" = at - 1
-  | otherwise = at
+beforePair text place
+  | place > 0 && Text.take 2 (Text.drop (place - 1) text) == "\r\n" = place - 1
+  | otherwise = place
 
 -- | Replaces a part of an open text, given by two offsets.
 applied :: Talk -> Int -> Text -> (Int, Int) -> Text -> Talk
