@@ -6,6 +6,7 @@ module Surface.Error
     FoundText (..),
     Enclosure (..),
     toReport,
+    valueHint,
   )
 where
 
@@ -315,10 +316,14 @@ toReport err = case err of
       { label = "the parameter",
         hints =
           ["A decimal point is a point: 59.3." | Text.isInfixOf "," text]
-            <> ["Write a value as in the program, for example: --set " <> name <> "=\"25 mm\""]
+            <> [valueHint name]
       }
   TooDeep region limit ->
     at region "E0110" ("brackets are nested more than " <> Decimal.whole limit <> " deep")
+
+-- | The hint that shows how the command line gives a value to the parameter @name@.
+valueHint :: Text -> Text
+valueHint name = "Write a value as in the program, for example: --set " <> name <> "=\"25 mm\""
 
 -- | The report of a file that cannot be imported: the region of the import, the name of the file as
 -- written, and the reason.
