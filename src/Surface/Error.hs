@@ -120,7 +120,7 @@ toReport err = case err of
   Unexpected region (FoundToken (Stray c)) _ around ->
     (at region "E0102" (strayTitle c))
       { fixes = CharacterFix.characterFixes region c around,
-        hints = strayHint c
+        hints = strayHint c around
       }
   Unexpected region (FoundToken OpenText) _ around ->
     (at region "E0103" "this text has no closing quotation mark")
@@ -527,11 +527,11 @@ isBroken token = case token of
 at :: Region -> ReportCode -> Text -> Report
 at region code = report Error code (InSource region)
 
-strayHint :: Char -> [Text]
-strayHint c
+strayHint :: Char -> TokenContext -> [Text]
+strayHint c around
   | c `elem` ("“”„«»'" :: String) = ["A text begins and ends with the straight mark \"."]
   | c == '^' = ["There are no powers: write x * x, and sqrt(x) for a root."]
   | c == '±' = ["A tolerance is a statement of its own: tolerance 0.02 mm"]
-  | c == ';' = ["If a comment begins here, write --."]
+  | c == ';' && not (null (after around)) = ["If a comment begins here, write --."]
   | c == '.' = ["A number has digits before its point: 0.5, 5.0 or 5."]
   | otherwise = []
