@@ -94,8 +94,9 @@ evaluate :: [(Text, Text)] -> LoadedProgram -> Result Report Report (Checked.Pro
 evaluate values loaded = do
   written <- surface loaded
   assigned <- mapErrors id Surface.toReport (Surface.assign values written)
-  checked <- mapErrors id Checked.toReport (Checked.check assigned)
-  (checked,) <$> mapErrors id partReport (Part.evaluate checked)
+  let located = Surface.inAssignment values written
+  checked <- mapErrors id (located . Checked.toReport) (Checked.check assigned)
+  (checked,) <$> mapErrors id (located . partReport) (Part.evaluate checked)
   where
     -- Only users of input sheets know the control stops of the Minsk-22 system.
     partReport

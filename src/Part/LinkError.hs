@@ -264,6 +264,7 @@ repeatedReport js@(j :| more) edges fault = case fault of
         hints =
           [ "Where the two elements touch, write smooth; where they meet at a corner, nothing; to \
             \round the corner, fillet and a radius."
+            | null (commonFixes js)
           ]
       }
   where

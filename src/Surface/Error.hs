@@ -6,6 +6,7 @@ module Surface.Error
     FoundText (..),
     Enclosure (..),
     toReport,
+    valueHint,
   )
 where
 
@@ -119,7 +120,7 @@ toReport err = case err of
   Unexpected region (FoundToken (Stray c)) _ around ->
     (at region "E0102" (strayTitle c))
       { fixes = CharacterFix.characterFixes region c around,
-        hints = strayHint c
+        hints = strayHint c around
       }
   Unexpected region (FoundToken OpenText) _ around ->
     (at region "E0103" "this text has no closing quotation mark")
@@ -315,10 +316,14 @@ toReport err = case err of
       { label = "the parameter",
         hints =
           ["A decimal point is a point: 59.3." | Text.isInfixOf "," text]
-            <> ["Write a value as in the program, for example: --set " <> name <> "=\"25 mm\""]
+            <> [valueHint name]
       }
   TooDeep region limit ->
     at region "E0110" ("brackets are nested more than " <> Decimal.whole limit <> " deep")
+
+-- | The hint that shows how the command line gives a value to the parameter @name@.
+valueHint :: Text -> Text
+valueHint name = "Write a value as in the program, for example: --set " <> name <> "=\"25 mm\""
 
 -- | The report of a file that cannot be imported: the region of the import, the name of the file as
 -- written, and the reason.
@@ -522,11 +527,11 @@ isBroken token = case token of
 at :: Region -> ReportCode -> Text -> Report
 at region code = report Error code (InSource region)
 
-strayHint :: Char -> [Text]
-strayHint c
+strayHint :: Char -> TokenContext -> [Text]
+strayHint c around
   | c `elem` ("“”„«»'" :: String) = ["A text begins and ends with the straight mark \"."]
   | c == '^' = ["There are no powers: write x * x, and sqrt(x) for a root."]
   | c == '±' = ["A tolerance is a statement of its own: tolerance 0.02 mm"]
-  | c == ';' = ["If a comment begins here, write --."]
+  | c == ';' && not (null (after around)) = ["If a comment begins here, write --."]
   | c == '.' = ["A number has digits before its point: 0.5, 5.0 or 5."]
   | otherwise = []

@@ -1,6 +1,7 @@
 -- | Values for the parameters of a program, which the user gives on the command line.
 module Surface.Parameter
   ( assign,
+    inAssignment,
   )
 where
 
@@ -10,7 +11,10 @@ import Base.Result (Result (..))
 import Base.Result qualified as Result
 import Data.List (foldl')
 import Data.Text (Text)
+import Report.Report (Report (..), ReportPlace (..))
+import Report.Report qualified as Report
 import Surface.Error (Error (..))
+import Surface.Error qualified as Error
 import Surface.Parser qualified as Parser
 import Surface.Syntax
 import Surface.Unlocated qualified as Unlocated
@@ -33,6 +37,31 @@ assignOne (name, text) program =
       Result {errors} -> Result.failing [BadAssignment at name text (length errors)] program
   where
     parameters = [n | Located _ (Param n _) <- statements program]
+
+-- | The report of an error in a value that the command line gives to a parameter. Such a report
+-- points at the name of the parameter in the program: its title then names the assignment, and its
+-- fixes are left to the words, since the program is not wrong. Any other report is unchanged.
+inAssignment :: [(Text, Text)] -> Program -> Report -> Report
+inAssignment values program report = case reverse given of
+  (name, text) : _ ->
+    report
+      { title = "--set " <> name <> "=" <> text <> ": " <> title report,
+        label = if label report == "" then "the parameter" else label report,
+        hints = Report.remedies report <> [Error.valueHint name],
+        fixes = []
+      }
+  [] -> report
+  where
+    given =
+      [ value
+        | Located _ (Param (Located region (Name n)) _) <- statements program,
+          place report == InSource region,
+          code report /= definedTwice,
+          value <- values,
+          fst value == n
+      ]
+    -- This error is about the name of the parameter.
+    definedTwice = "E0203"
 
 -- | The statement @s@ with the value @e@ if it defines the parameter @name@; otherwise unchanged.
 withValue :: Text -> Expr -> Statement -> Statement

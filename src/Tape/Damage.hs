@@ -118,7 +118,8 @@ toReport (Damage at n c why) =
       (InTape at)
       ("row " <> Decimal.whole at <> position <> ": " <> reasonText why)
   )
-    { message = explanation why
+    { message = explanation why,
+      hints = remedy why
     }
   where
     position = case (n, c) of
@@ -143,6 +144,13 @@ explanation why = case why of
     [ "The machine's description lets frames be read in two ways. Look at what stands between \
       \words, and at words that may be left out."
     ]
+  _ -> []
+
+-- | Hints below a report; the list is empty if the fault has many possible causes.
+remedy :: Reason -> [Text]
+remedy why = case why of
+  CutOff ->
+    ["The file is cut off: copy it again, or punch it anew with partc compile FILE."]
   _ -> []
 
 -- | Title of the report for a reason, without the row and the frame.

@@ -265,6 +265,7 @@ spec = do
         (code, out, err) <- partc ["decode", "-t", "lkp-01f", folder </> "cut.tape"]
         (code, out) `shouldBe` (ExitFailure 1, "")
         err `shouldSatisfy` isInfixOf "the tape ends within a frame"
+        err `shouldSatisfy` isInfixOf "hint: The file is cut off: copy it again, or punch it anew"
     it "proves the pulses of a tape, and disproves a controller that stops with status 3" $
       inFolder $ \folder -> do
         (good, table, _) <- partc ["verify", "examples/flange.part", "--pulses"]
