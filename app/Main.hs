@@ -39,7 +39,8 @@ work = do
   case parsed of
     -- Optparse-applicative treats --help and --version as failures with the status of success.
     Opt.Failure request
-      | (text, ExitSuccess) <- Opt.renderFailure request name -> statusOf <$> Subcommand.showHelp text
+      | (text, ExitSuccess) <- Opt.renderFailure request name ->
+        statusOf <$> Subcommand.showHelp text
       | (text, status) <- Opt.renderFailure request name,
         Just report <- OptionError.unknownOption parser text arguments ->
         status <$ hPutStr stderr report

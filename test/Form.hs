@@ -216,7 +216,7 @@ longFunctions =
         "Part.Error.factReport",
         "Part.LinkError.toReport",
         "Part.PocketError.toReport",
-        "Project.Error.toReport",
+        "Project.Error.reportWith",
         "Sheet.Error.toReport",
         "Sheet.Unsupported.toReport",
         "Surface.Error.toReport",

@@ -41,8 +41,8 @@ turned fits linked isMeant =
       _ -> w
     other sense = case sense of Clockwise -> CounterClockwise; CounterClockwise -> Clockwise
 
--- | A fillet that, in place of the link in the given region, leaves the contour without a fault: the
--- largest of a few round radii that fits.
+-- | A fillet that, in place of the link in the given region, leaves the contour without a fault:
+-- the largest of a few round radii that fits.
 inPlaceOf ::
   (NonEmpty LinkedElement -> Bool) -> NonEmpty LinkedElement -> Region -> Maybe FittingFillets
 inPlaceOf fits linked at =

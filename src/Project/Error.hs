@@ -63,7 +63,11 @@ reportWith option err = case err of
             <> ["Or name it on the command line: -t NAME"]
       }
   UnknownMachine place name known ->
-    (wrong "E0805" (maybe InCommandLine InSource place) ("there is no machine named ‘" <> name <> "’"))
+    ( wrong
+        "E0805"
+        (maybe InCommandLine InSource place)
+        ("there is no machine named ‘" <> name <> "’")
+    )
       { message = ["The machines are: " <> Text.intercalate ", " known <> "."],
         fixes =
           [ if isFile

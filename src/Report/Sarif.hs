@@ -147,9 +147,7 @@ result indices lines' Filed {path, source, report = r} =
       InSource region ->
         let Position {file, line} = Region.position source (start region)
          in Map.lookup file lines' >>= (Vector.!? (line - 1))
-      InTape _ -> Nothing
-      InFile -> Nothing
-      InCommandLine -> Nothing
+      _ -> Nothing
     ReportCode code = Report.code r
     sentences = Text.intercalate "\n" (title r : message r <> map ("hint: " <>) (Report.remedies r))
     located = case place r of
