@@ -18,10 +18,10 @@ import Data.Set (Set)
 import Data.Set qualified as Set
 import Data.Text (Text)
 import Data.Text qualified as Text
-import Surface.Expression qualified as Expression
 import Surface.Keyword qualified as Keyword
 import Surface.Syntax (Expr_ (..), Statement, Statement_ (..))
 import Surface.Syntax qualified as Surface
+import Surface.SyntaxWalk qualified as SyntaxWalk
 import Surface.Token (Numeral (..), unitName)
 
 -- | Completes the errors of a program, whose statements are given.
@@ -77,7 +77,7 @@ termAt statements at =
       isOwnCall = or [isNothing (Builtin.lookup name) | Call (Located _ (Name name)) _ <- terms]
     }
   where
-    around = innermostFirst at (concatMap Expression.statementsIn statements)
+    around = innermostFirst at (concatMap SyntaxWalk.statementsIn statements)
     terms = termsAt statements at
 
 -- | A number or a name as it is written.
@@ -93,8 +93,8 @@ written x = case x of
 termsAt :: [Statement] -> Region -> [Expr_]
 termsAt statements at =
   [ value x
-    | s <- innermostFirst at (concatMap Expression.statementsIn statements),
-      x <- concatMap Expression.everywhere (Expression.ofStatement s),
+    | s <- innermostFirst at (concatMap SyntaxWalk.statementsIn statements),
+      x <- concatMap SyntaxWalk.everywhere (SyntaxWalk.ofStatement s),
       region x == at
   ]
 
@@ -112,15 +112,15 @@ definitionAt statements at (Name name) =
       isOwnCall = False
     }
   where
-    everything = concatMap Expression.statementsIn statements
+    everything = concatMap SyntaxWalk.statementsIn statements
 
 -- | The uses of a name that is defined at a region: as a value, or in calls if it is defined as a
 -- function.
 usesOf :: [Statement] -> Region -> Name -> [Region]
 usesOf statements at name = concatMap use (concatMap everyTerm (filter isReached everything))
   where
-    everything = concatMap Expression.statementsIn statements
-    everyTerm = concatMap Expression.everywhere . Expression.ofStatement
+    everything = concatMap SyntaxWalk.statementsIn statements
+    everyTerm = concatMap SyntaxWalk.everywhere . SyntaxWalk.ofStatement
     own = listToMaybe (innermostFirst at everything)
     isStatement = or [region n == at | s <- maybeToList own, Just n <- [definedName s]]
     isFunction = isStatement && or [True | Located _ (LetFunction {}) <- maybeToList own]
@@ -164,10 +164,10 @@ usedNames statements =
         <> [text | s <- everything, Just (Located _ (Name text)) <- [definedName s]]
         <> concatMap
           named
-          (concatMap Expression.everywhere (concatMap Expression.ofStatement everything))
+          (concatMap SyntaxWalk.everywhere (concatMap SyntaxWalk.ofStatement everything))
     )
   where
-    everything = concatMap Expression.statementsIn statements
+    everything = concatMap SyntaxWalk.statementsIn statements
     named x = case value x of
       Variable (Name text) -> [text]
       Call (Located _ (Name text)) _ -> [text]

@@ -374,17 +374,17 @@ variable env at name@(Name text) = do
       pure (t, const (Located at (Checked.Variable name)))
 
 -- | The error for a name that is not in scope. The name is defined only below, or is used in its
--- own definition, or is not defined at all. @undefined'@ makes the error for the last case.
+-- own definition, or is not defined at all. @notDefined@ makes the error for the last case.
 unknownName ::
   TypingEnvironment -> (Region -> Name -> [Text] -> Error) -> Region -> Name -> Infer Error
-unknownName env undefined' at name = do
+unknownName env notDefined at name = do
   names <- Inference.namesInScope
   pure $ case Map.lookup name (definitions env) of
     Just definedAt
       | start definedAt > start at -> UsedBeforeDefinition at name definedAt Nothing
       | otherwise -> Recursive at name
     Nothing ->
-      undefined' at name ([text | Name text <- names] <> Builtin.names <> Keyword.reservedWords)
+      notDefined at name ([text | Name text <- names] <> Builtin.names <> Keyword.reservedWords)
 
 -- | A term that takes the place of a term that is reported as wrong.
 wrong :: Region -> Typed

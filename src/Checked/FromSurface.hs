@@ -48,6 +48,7 @@ import Data.Maybe (catMaybes, listToMaybe)
 import Data.Text (Text)
 import Surface.Syntax (Statement)
 import Surface.Syntax qualified as Surface
+import Surface.SyntaxWalk qualified as SyntaxWalk
 
 -- | Checks a program. The output contains all statements without mistakes.
 check :: Surface.Program -> Result w Error Program
@@ -97,19 +98,7 @@ definedIn :: [Statement] -> Map Name Region
 definedIn statements =
   Map.fromListWith
     (\_ first -> first)
-    [(value n, region n) | Located _ s <- statements, Just n <- [definedName s]]
-
-definedName :: Surface.Statement_ -> Maybe (Located Name)
-definedName s = case s of
-  Surface.LetValue n _ -> Just n
-  Surface.LetFunction n _ _ -> Just n
-  Surface.Param n _ -> Just n
-  Surface.Contour n _ _ -> Just n
-  Surface.Table n _ -> Just n
-  Surface.Curve n _ -> Just n
-  Surface.Piece n _ _ _ _ -> Just n
-  Surface.Broken _ n -> n
-  _ -> Nothing
+    [(value n, region n) | Located _ s <- statements, Just n <- [SyntaxWalk.definedName s]]
 
 -- Statements
 

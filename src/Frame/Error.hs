@@ -26,6 +26,7 @@ import Report.Fix (Fix)
 import Report.Fix qualified as Fix
 import Report.Report (Label (..), Report (..), ReportPlace (..), report)
 import Report.Report qualified as Report
+import Toolpath.ErrorFix qualified as ErrorFix
 
 -- | Reason why no frames are made. Every error has the region of the part program that causes it.
 data Error
@@ -235,7 +236,7 @@ toReport machine err = case err of
         (machineName machine <> " has no cutter compensation")
     )
       { message = ["Its tape has no word for it."],
-        fixes = [compensationFix region]
+        fixes = [ErrorFix.compensationFix region]
       }
   DiameterOutOfRange region diameter ->
     ( report
@@ -249,7 +250,7 @@ toReport machine err = case err of
               <> Decimal.mm (Machine.planeResolution machine)
               <> ") only."
           ],
-        fixes = [compensationFix region]
+        fixes = [ErrorFix.compensationFix region]
       }
   TooManyFrames region limit ->
     ( report
@@ -432,17 +433,6 @@ startText p (Mm z) =
   "("
     <> Text.intercalate ", " (map (Decimal.short 6) ([Vec.x p, Vec.y p] <> [z | z /= 0]))
     <> ")"
-
--- | Fix that leaves the compensation to the compiler. @asked@ is the setting that asks the machine
--- for it.
-compensationFix :: Region -> Fix
-compensationFix asked =
-  Fix.proposed
-    ( Fix.exchange
-        "Let the compiler compute the path of the cutter's centre: compensation compiler."
-        asked
-        "compensation compiler"
-    )
 
 -- | Noun before the number of a command in a report, as in "the machine has no tool 7".
 numbered :: CommandKind -> Text

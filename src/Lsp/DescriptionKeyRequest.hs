@@ -40,9 +40,9 @@ hover client subject params = do
   where
     shown found =
       object
-        [ "contents" .= let text = words' found in markup client text text,
+        [ "contents" .= let text = sentences found in markup client text text,
           "range" .= rangeOf subject (word found)
         ]
-    words' found =
+    sentences found =
       Text.concat
         ["A key of ", section found, ". Its keys are: ", Text.intercalate ", " (keys found), "."]

@@ -36,9 +36,9 @@ import Query.Measurement qualified as Measurement
 import Query.Name qualified as Name
 import Query.Snapshot (Snapshot)
 import Query.Snapshot qualified as Snapshot
-import Query.SyntaxWalk qualified as SyntaxWalk
 import Surface.Lexer qualified as Lexer
 import Surface.Syntax qualified as Surface
+import Surface.SyntaxWalk qualified as SyntaxWalk
 import Surface.Token (Token (..), Token_ (..))
 import Surface.Token qualified as Token
 
@@ -146,7 +146,12 @@ linkOf now token w
           entry = Manual.word w
         }
   where
-    links = concatMap SyntaxWalk.links (Surface.statements (Snapshot.program now))
+    links =
+      [ l
+        | s <- Surface.statements (Snapshot.program now),
+          Located _ (Surface.Element _ _ _ (Just l)) <-
+            concatMap SyntaxWalk.itemsOf (SyntaxWalk.statementsIn s)
+      ]
     largest link = case link of
       Surface.Fillet e ->
         [("largest radius here", Decimal.mm r) | Just r <- [largestFillet now (Region.region e)]]

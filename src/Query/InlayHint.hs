@@ -24,8 +24,8 @@ import Query.Mention (MentionType (..))
 import Query.Mention qualified as Mention
 import Query.Snapshot (Snapshot)
 import Query.Snapshot qualified as Snapshot
-import Query.SyntaxWalk qualified as SyntaxWalk
 import Surface.Syntax
+import Surface.SyntaxWalk qualified as SyntaxWalk
 
 -- | A text that is shown after the character before the offset.
 data InlayHint = InlayHint {offset :: Int, text :: Text, isType :: Bool}
@@ -37,7 +37,7 @@ inlayHints now (Region from to) =
   sortOn offset (filter isInside (types <> concatMap units inner <> radii))
   where
     isInside h = from <= offset h && offset h <= to
-    inner = concatMap SyntaxWalk.inside (statements (Snapshot.program now))
+    inner = concatMap SyntaxWalk.statementsIn (statements (Snapshot.program now))
     typeAt =
       Map.fromList
         [ (Mention.place m, t)
@@ -54,17 +54,12 @@ inlayHints now (Region from to) =
     units s = case value s of
       LetValue n e -> bare (Map.lookup (region n) typeAt) e
       Param n e -> bare (Map.lookup (region n) typeAt) e
-      _ -> concat [bare t e | (t, e) <- SyntaxWalk.typedExpressions s]
+      _ -> concat [bare t e | (t, e) <- typedExpressions s]
     radii =
       [ InlayHint {offset = end (region e), text = "radius " <> Decimal.mm r, isType = False}
-        | s <- inner,
-          isTop s,
-          Located _ (Element (Just _) e _ _) <- SyntaxWalk.elementsOf s,
+        | Located _ (Element (Just _) e _ _) <- concatMap SyntaxWalk.itemsOf inner,
           Just r <- [Map.lookup (region e) walked]
       ]
-    isTop s = case value s of
-      Contour {} -> True
-      _ -> False
     walked =
       Map.fromList
         [ (Part.origin x, Segment.radius centre start')
@@ -98,7 +93,7 @@ bare t e = case value e of
   List es -> concatMap (bare (t >>= itemType)) es
   Call (Located _ name) arguments ->
     concat (zipWith argument (parameterTypes name arguments) (NonEmpty.toList arguments))
-  _ -> concatMap (bare Nothing) (SyntaxWalk.subexpressions e)
+  _ -> concatMap (bare Nothing) (SyntaxWalk.parts e)
   where
     argument t' a = case a of
       Given x -> bare t' x
@@ -135,3 +130,57 @@ unitOf t
   | t == Type.feed = Just "mm/min"
   | t == Type.spindleSpeed = Just "rpm"
   | otherwise = Nothing
+
+-- | The expressions of a statement with the types that its grammar demands; 'Nothing' where it
+-- demands none. Definitions of values are left out.
+typedExpressions :: Statement -> [(Maybe Type, Expr)]
+typedExpressions s = case value s of
+  Feed e -> [(Just Type.feed, e)]
+  Clearance e -> [(Just Type.len, e)]
+  Tolerance _ -> lengths
+  Tool _ -> []
+  Change _ _ -> []
+  Spindle _ -> [(Just Type.spindleSpeed, e) | e <- SyntaxWalk.ofStatement s]
+  Drill e f settings -> (Nothing, e) : (Just Type.len, f) : concatMap typedSetting settings
+  Mill e _ settings -> (Nothing, e) : concatMap typedSetting settings
+  Turn e _ settings -> (Nothing, e) : concatMap typedSetting settings
+  Pocket e f settings -> (Nothing, e) : (Just Type.len, f) : concatMap typedSetting settings
+  Contour {} -> concatMap typedItem (SyntaxWalk.itemsOf s)
+  LetValue _ _ -> []
+  LetFunction {} -> []
+  Param _ _ -> []
+  _ -> [(Nothing, e) | e <- SyntaxWalk.ofStatement s]
+  where
+    lengths = [(Just Type.len, e) | e <- SyntaxWalk.ofStatement s]
+
+typedItem :: Item -> [(Maybe Type, Expr)]
+typedItem i = case value i of
+  Element _ e modifiers link ->
+    (Nothing, e) :
+    concat
+      [ case m of
+          ElementFeed f -> [(Just Type.feed, f)]
+          ElementAllowance a -> [(Just Type.len, a)]
+          Bevel a -> [(Just Type.angle, a)]
+          Slow -> []
+        | Located _ m <- modifiers
+      ]
+      <> case fmap value link of
+        Just (Fillet r) -> [(Just Type.len, r)]
+        Just (Chamfer r) -> [(Just Type.len, r)]
+        Just (Meet (Just p)) -> [(Nothing, p)]
+        _ -> []
+  For _ e _ -> [(Nothing, e)]
+  Choose e _ _ -> [(Nothing, e)]
+  BrokenItem _ -> []
+
+typedSetting :: Setting -> [(Maybe Type, Expr)]
+typedSetting s = case value s of
+  Plunge e -> [(Just Type.feed, e)]
+  Approach _ -> plain
+  Retract _ -> plain
+  StartNear _ -> plain
+  Islands _ -> plain
+  _ -> [(Just Type.len, e) | e <- SyntaxWalk.ofSetting s]
+  where
+    plain = [(Nothing, e) | e <- SyntaxWalk.ofSetting s]

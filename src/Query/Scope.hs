@@ -27,8 +27,7 @@ import Query.Mention qualified as Mention
 import Query.Slot (Typings (..))
 import Query.Snapshot (Snapshot)
 import Query.Snapshot qualified as Snapshot
-import Surface.Syntax (Statement_)
-import Surface.Syntax qualified as Surface
+import Surface.SyntaxWalk qualified as SyntaxWalk
 
 -- | A visible name: its type, its description in words, its value, and the statement that defines
 -- it.
@@ -51,7 +50,7 @@ scope now before cursor = map scoped (nubOrdOn Cursor.name (own <> imported))
     imported =
       [ BoundName n at
         | Located _ s <- Snapshot.imported now <> maybe [] Snapshot.imported before,
-          Just (Located at (Name n)) <- [defined s]
+          Just (Located at (Name n)) <- [SyntaxWalk.definedName s]
       ]
     present = definitionsOf now
     earlier = Map.fromList [(Mention.word m, m) | m <- maybe [] (Map.elems . definitionsOf) before]
@@ -80,18 +79,6 @@ definitionsOf snapshot =
       | m <- Mention.mentions (Snapshot.facts snapshot),
         Mention.definition m == Just (Mention.place m)
     ]
-
--- | The name that an imported statement defines.
-defined :: Statement_ -> Maybe (Located Name)
-defined s = case s of
-  Surface.LetValue n _ -> Just n
-  Surface.LetFunction n _ _ -> Just n
-  Surface.Param n _ -> Just n
-  Surface.Contour n _ _ -> Just n
-  Surface.Table n _ -> Just n
-  Surface.Curve n _ -> Just n
-  Surface.Piece n _ _ _ _ -> Just n
-  _ -> Nothing
 
 -- | The types that 'Query.Slot.slots' needs, from the visible names.
 typings :: [ScopedName] -> Typings

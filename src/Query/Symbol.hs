@@ -21,8 +21,8 @@ import Data.Text qualified as Text
 import Query.RegionMap (RegionMap)
 import Query.RegionMap qualified as RegionMap
 import Query.Snapshot (Snapshot (..))
-import Query.SyntaxWalk qualified as SyntaxWalk
 import Surface.Syntax (Program (..), Statement, Statement_ (..))
+import Surface.SyntaxWalk qualified as SyntaxWalk
 
 -- | A symbol: the name, a short addition such as a parameter list, the kind, the region of the
 -- whole statement, and the region to select in it.

@@ -144,7 +144,7 @@ spec = do
 incomplete :: Text
 incomplete = "Later mistakes are missing here. partc check has no limit."
 
--- | A session with a right program, whose analysis has ended. Earlier messages are kept.
+-- | A conversation with a right program whose analysis has ended, with all its messages.
 settledRight :: Talk
 settledRight = pause 0 (open addressOf 1 right ready)
 

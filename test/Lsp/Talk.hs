@@ -69,23 +69,23 @@ data Talk = Talk
     isSlow :: Bool
   }
 
--- | The state before the first message.
+-- | A conversation before its first message.
 begin :: Talk
 begin = Talk {session = start, time = 0, sent = [], begun = Nothing, isSlow = False}
 
--- | The state after @initialize@ with these capabilities of text documents. Earlier messages are
--- dropped.
+-- | A conversation after @initialize@ with these capabilities of text documents. It contains no
+-- messages yet.
 running :: Value -> Talk
 running capabilities = runningWith (object ["textDocument" .= capabilities])
 
--- | The state after @initialize@ with these capabilities. Earlier messages are dropped.
+-- | A conversation after @initialize@ with these capabilities. It contains no messages yet.
 runningWith :: Value -> Talk
 runningWith capabilities =
   (say (Request (Number 0) "initialize" (object ["capabilities" .= capabilities])) begin)
     { sent = []
     }
 
--- | The same conversation with a slow worker. Earlier messages are dropped.
+-- | A conversation in the same state with a slow worker. It contains no messages yet.
 slow :: Talk -> Talk
 slow talk = talk {isSlow = True, sent = []}
 

@@ -1,25 +1,60 @@
--- | The expressions of a program, for passes that look at all of them.
-module Surface.Expression
+-- | All nodes of one kind in a syntax tree, for passes that look at all of them.
+module Surface.SyntaxWalk
   ( statementsIn,
+    blocks,
+    definedName,
+    itemsOf,
     ofStatement,
+    ofSetting,
+    parts,
     everywhere,
   )
 where
 
+import Base.Name (Name)
 import Base.Region (Located (..))
 import Data.List.NonEmpty qualified as NonEmpty
 import Data.Maybe (maybeToList)
 import Surface.Syntax
 
--- | A statement and all statements in its blocks.
+-- | A statement and all statements in its blocks, the outer ones first.
 statementsIn :: Statement -> [Statement]
-statementsIn s = s : concatMap statementsIn inner
-  where
-    inner = case value s of
-      Repeat _ _ body -> body
-      When _ body others -> body <> others
-      With _ body -> body
-      _ -> []
+statementsIn s = s : concatMap statementsIn (blocks s)
+
+-- | The statements in the blocks of a statement.
+blocks :: Statement -> [Statement]
+blocks (Located _ s) = case s of
+  Repeat _ _ body -> body
+  When _ body others -> body <> others
+  With _ body -> body
+  _ -> []
+
+-- | The name that a statement defines, or was to define if it is broken.
+definedName :: Statement_ -> Maybe (Located Name)
+definedName s = case s of
+  LetValue n _ -> Just n
+  LetFunction n _ _ -> Just n
+  Param n _ -> Just n
+  Contour n _ _ -> Just n
+  Table n _ -> Just n
+  Curve n _ -> Just n
+  Piece n _ _ _ _ -> Just n
+  Broken _ n -> n
+  _ -> Nothing
+
+-- | All items of a contour, those in blocks among them; none of another statement.
+itemsOf :: Statement -> [Item]
+itemsOf (Located _ s) = case s of
+  Contour _ _ items -> concatMap itemsIn items
+  _ -> []
+
+itemsIn :: Item -> [Item]
+itemsIn i =
+  i : case value i of
+    Element {} -> []
+    For _ _ body -> concatMap itemsIn body
+    Choose _ body others -> concatMap itemsIn (body <> others)
+    BrokenItem _ -> []
 
 -- | The expressions of a statement that are not parts of other expressions. Those of the statements
 -- in its blocks are left out.
@@ -46,7 +81,7 @@ ofStatement (Located _ s) = case s of
   Mill e _ settings -> e : concatMap ofSetting settings
   Pocket e stepover settings -> e : stepover : concatMap ofSetting settings
   Turn e _ settings -> e : concatMap ofSetting settings
-  Drill e depth' settings -> e : depth' : concatMap ofSetting settings
+  Drill e deep settings -> e : deep : concatMap ofSetting settings
   Travel _ stops -> concatMap ofStop (NonEmpty.toList stops)
   Change e c -> e : ofCutter c
   Spindle (Spinning _ e) -> maybeToList e
@@ -60,10 +95,11 @@ ofStatement (Located _ s) = case s of
 
 -- | An expression and all its parts.
 everywhere :: Expr -> [Expr]
-everywhere e = e : concatMap everywhere (parts (value e))
+everywhere e = e : concatMap everywhere (parts e)
 
-parts :: Expr_ -> [Expr]
-parts e = case e of
+-- | The expressions directly in an expression.
+parts :: Expr -> [Expr]
+parts (Located _ e) = case e of
   Literal _ _ -> []
   Variable _ -> []
   Call _ arguments -> concatMap ofArgument (NonEmpty.toList arguments)
@@ -126,6 +162,7 @@ ofCipher (Located _ (Cipher _ es)) = NonEmpty.toList es
 ofJoggle :: Joggle -> [Expr]
 ofJoggle (Located _ (Joggle a b d r)) = [a, b, d, r]
 
+-- | The expressions of a setting that are not parts of other expressions.
 ofSetting :: Setting -> [Expr]
 ofSetting (Located _ s) = case s of
   Approach stops -> concatMap ofStop (NonEmpty.toList stops)
@@ -144,7 +181,7 @@ ofSetting (Located _ s) = case s of
   BrokenSetting -> []
 
 ofStop :: Stop -> [Expr]
-ofStop (Stop e pace') = case pace' of
+ofStop (Stop e atPace) = case atPace of
   Cutting -> [e]
   Rapid -> [e]
   AtFeed f -> [e, f]
