@@ -10,7 +10,6 @@ module Checked.ErrorFix
     mismatchFixes,
     disagreeFixes,
     measureFixes,
-    conversions,
     placeholder,
     argumentFixes,
     decimalFixes,

@@ -7,7 +7,6 @@ module Lsp.Document
     Edit (..),
     open,
     edit,
-    text,
     program,
     isDescription,
   )
@@ -24,6 +23,7 @@ import Lsp.Position (LspPosition (..), LspRange (..))
 import Lsp.Position qualified as Position
 import Lsp.Uri (Uri)
 import Lsp.Uri qualified as Uri
+import Project.MachineDescription qualified as MachineDescription
 
 -- | A text with the address of its file and the version number that the client gives to this state
 -- of the text. The version is Nothing if the client gives none. Each line has its line end: LF, CR
@@ -94,6 +94,6 @@ program document = Text.map unmarked (Text.take 1 whole) <> Text.drop 1 whole
     whole = text document
     unmarked c = if c == '\xFEFF' then ' ' else c
 
--- | True if the document is a machine description: its file ends in @.machine@.
+-- | True if the document is a machine description.
 isDescription :: Document -> Bool
-isDescription = Text.isSuffixOf ".machine" . Uri.toPath . uri
+isDescription = MachineDescription.isDescription . Uri.toPath . uri

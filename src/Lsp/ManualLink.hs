@@ -1,7 +1,6 @@
 -- | Sentences about the words of the language with a link to the manual.
 module Lsp.ManualLink
   ( sentence,
-    link,
   )
 where
 

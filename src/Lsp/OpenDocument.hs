@@ -6,7 +6,6 @@
 module Lsp.OpenDocument
   ( OpenDocument (..),
     Stage (..),
-    ProofState (..),
     WaitingRequest (..),
     Milliseconds (..),
     plus,
@@ -30,7 +29,7 @@ import Lsp.Document (Document)
 import Lsp.Document qualified as Document
 import Lsp.Message (Id)
 import Lsp.Request (Need (..))
-import Lsp.Subject (Subject (Subject, now, proven))
+import Lsp.Subject (Subject (Subject, now))
 import Lsp.Subject qualified as Subject
 import Lsp.Uri qualified as Uri
 import Query.CarriedReport qualified as CarriedReport
@@ -49,10 +48,6 @@ plus (Milliseconds time) wait = Milliseconds (time + wait)
 -- | The results that exist for the present text.
 data Stage = Unanalysed | Evaluated | Settled
   deriving stock (Eq, Ord, Show)
-
--- | The proof of the present text's tape: not begun, or ended with a proven tape or without one.
-data ProofState = Unproven | ProofEnded Bool
-  deriving stock (Eq, Show)
 
 -- | A request that waits for an analysis: its identifier, its method, its parameters, and the time
 -- at which it is refused.
@@ -81,7 +76,9 @@ data OpenDocument = OpenDocument
     due :: Maybe Milliseconds,
     -- | the time at which the tape may be made and proven; nothing if this is not to be done
     proofDue :: Maybe Milliseconds,
-    proof :: ProofState,
+    -- | true if the tape of the present text is proven, false if it is not, nothing if this is not
+    -- known
+    proven :: Maybe Bool,
     -- | requests that wait for results, the newest first
     waiting :: [WaitingRequest]
   }
@@ -98,7 +95,7 @@ open now document =
       unsettledSince = Just now,
       due = Just now,
       proofDue = Nothing,
-      proof = Unproven,
+      proven = Nothing,
       waiting = []
     }
 
@@ -111,7 +108,7 @@ changed now o =
       unsettledSince = Just since,
       due = Just (min (now `plus` silence) (since `plus` longestBurst)),
       proofDue = Nothing,
-      proof = Unproven
+      proven = Nothing
     }
   where
     since = Maybe.fromMaybe now (unsettledSince o)
@@ -158,11 +155,8 @@ isReady need o = case need of
 -- one, and answers come from the last snapshot, with positions moved to the present text.
 subject :: OpenDocument -> Subject
 subject o =
-  Subject {Subject.document = document o, now, Subject.sound = before, proven}
+  Subject {Subject.document = document o, now, Subject.sound = before, Subject.proven = proven o}
   where
-    proven = case proof o of
-      ProofEnded isProven -> Just isProven
-      Unproven -> Nothing
     (now, before) = case latest o of
       Just snapshot | stage o >= Evaluated -> (snapshot, sound o)
       Just snapshot | Snapshot.hasFacts snapshot -> (blank, Just snapshot)

@@ -34,7 +34,6 @@ import Lsp.Message (ErrorCode (..), Failure (..), Id, Outgoing (..))
 import Lsp.OpenDocument
   ( Milliseconds (..),
     OpenDocument (..),
-    ProofState (..),
     Stage (..),
     WaitingRequest (..),
     plus,
@@ -224,7 +223,7 @@ worked c now w outcome session = case Map.lookup there (documents session) of
           ended = Send (Status.settled (document o)) : endOfProgress c w
        in (session', messages <> ended <> answers)
     Proven isProven ->
-      ( adjusted there (\d -> d {proof = ProofEnded isProven}) idle,
+      ( adjusted there (\d -> d {proven = Just isProven}) idle,
         map Send (Status.proofEnded c (lastWork session) (document o) isProven)
       )
     Fault why -> faulty c why w idle

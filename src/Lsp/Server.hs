@@ -48,6 +48,7 @@ import Lsp.Schedule qualified as Schedule
 import Lsp.Session qualified as Session
 import Lsp.Transport qualified as Transport
 import Project.LoadedProgram (LoadedProgram)
+import Project.MachineDescription qualified as MachineDescription
 import Query.Snapshot (Check)
 import Query.Snapshot qualified as Snapshot
 import System.Exit (ExitCode (..))
@@ -269,7 +270,7 @@ perform Lines {host, events} texts WorkOrder {number, kind, path, text} = do
     force = Snapshot.force Diagnostic.mostDiagnostics
     doWork work = case work of
       Analysis
-        | ".machine" `Text.isSuffixOf` path -> do
+        | MachineDescription.isDescription path -> do
           let snapshot = Snapshot.ofDescription path text
           evaluate (force snapshot)
           tell (AllChecked snapshot)

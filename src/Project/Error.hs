@@ -13,6 +13,7 @@ import Base.Region (Position (..), Region)
 import Base.Region qualified as Region
 import Data.Text (Text)
 import Data.Text qualified as Text
+import Project.MachineDescription qualified as MachineDescription
 import Report.Fix qualified as Fix
 import Report.Report (Report (..), ReportPlace (..), report)
 import Report.Report qualified as Report
@@ -85,7 +86,7 @@ reportWith option err = case err of
             <> ["Write one of them." | null similar, not isFile]
       }
     where
-      isFile = ".machine" `Text.isSuffixOf` name
+      isFile = MachineDescription.isDescription name
       similar = Name.lookAlike name known <> Name.nearest name known
   DescriptionMissing place file why ->
     ( wrong

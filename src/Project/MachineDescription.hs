@@ -7,6 +7,7 @@ module Project.MachineDescription
   ( Descriptions,
     load,
     isFileName,
+    isDescription,
     find,
     findBuiltIn,
     findDescribed,
@@ -42,7 +43,11 @@ load contents folder file = (file,) <$> contents (folder </> Text.unpack file)
 -- | True if the name means a description file, and not a built-in machine: it contains a slash or
 -- ends in @.machine@.
 isFileName :: Text -> Bool
-isFileName name = Text.any (== '/') name || Text.isSuffixOf ".machine" name
+isFileName name = Text.any (== '/') name || isDescription name
+
+-- | True if the name of a file is that of a machine description: it ends in @.machine@.
+isDescription :: Text -> Bool
+isDescription = Text.isSuffixOf ".machine"
 
 -- | The reason why a machine cannot be used.
 data Missing
