@@ -363,6 +363,11 @@ toReport err = case err of
         )
     )
       { label = "needed here",
+        message =
+          [ "Because of its depth, the tool comes down from the clearance height and rises to it \
+            \again."
+            | ClearanceSetting `elem` fmap fst missing
+          ],
         fixes =
           [ Fix.proposed
               ( Fix.joined
