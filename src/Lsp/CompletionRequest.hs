@@ -11,7 +11,7 @@ import Data.Text (Text)
 import Data.Text qualified as Text
 import Lsp.Capability (Client (..))
 import Lsp.ManualLink qualified as ManualLink
-import Lsp.Subject (Method, Subject (..), fenced, offsetIn, textEdit)
+import Lsp.Subject (Method, atCursor, fenced, textEdit)
 import Query.Completion (Completion (..), CompletionItem (..), CompletionKind (..))
 import Query.Completion qualified as Completion
 import Query.Signature qualified as Signature
@@ -19,8 +19,7 @@ import Query.Snippet qualified as Snippet
 
 -- | The request @textDocument/completion@.
 completion :: Method
-completion client subject params =
-  maybe Null shown . Completion.completion (now subject) (sound subject) <$> offsetIn subject params
+completion client subject = atCursor Completion.completion shown subject
   where
     shown found =
       object
@@ -96,8 +95,7 @@ number kind = case kind of
 
 -- | The request @textDocument/signatureHelp@.
 signatureHelp :: Method
-signatureHelp client subject params =
-  maybe Null shown . Signature.signature (now subject) (sound subject) <$> offsetIn subject params
+signatureHelp client = atCursor Signature.signature shown
   where
     shown s =
       object

@@ -20,7 +20,7 @@ import Data.Map.Strict (Map)
 import Data.Map.Strict qualified as Map
 import Data.Text (Text)
 import Lsp.Capability (Client)
-import Lsp.Message (Incoming, Outgoing)
+import Lsp.Message (Id, Incoming, Outgoing)
 import Lsp.OpenDocument (Milliseconds, OpenDocument)
 import Query.Snapshot (Snapshot)
 
@@ -84,6 +84,9 @@ data Event
 -- | The consequence of a step.
 data Effect
   = Send Outgoing
+  | -- | the answer to the request with this identifier; it may take long to compute, so it is
+    -- computed beside the main thread
+    Answer Id ~Outgoing
   | -- | the worker begins this work; work that still runs is stopped
     Begin WorkOrder
   | -- | the worker stops its work

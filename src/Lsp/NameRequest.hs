@@ -20,7 +20,17 @@ import Lsp.Document (Document (..))
 import Lsp.Location qualified as Location
 import Lsp.ManualLink qualified as ManualLink
 import Lsp.Position qualified as Position
-import Lsp.Subject (Method, Subject (..), fenced, markup, offsetIn, rangeOf, source, textEdit)
+import Lsp.Subject
+  ( Method,
+    Subject (..),
+    atCursor,
+    fenced,
+    markup,
+    offsetIn,
+    rangeOf,
+    source,
+    textEdit,
+  )
 import Lsp.Uri (Uri (..))
 import Lsp.Uri qualified as Uri
 import Query.Description (Description (..))
@@ -32,9 +42,7 @@ import Query.Rename qualified as Rename
 
 -- | The request @textDocument/hover@.
 hover :: Method
-hover client subject params =
-  maybe Null shown . Description.description (now subject) (sound subject)
-    <$> offsetIn subject params
+hover client subject = atCursor Description.description shown subject
   where
     shown d = object ["contents" .= contents d, "range" .= rangeOf subject (region d)]
     contents d = markup client (marked d) (Text.intercalate "\n" (line d : texts d))
@@ -48,8 +56,7 @@ hover client subject params =
 
 -- | The request @textDocument/definition@.
 definition :: Method
-definition _ subject params =
-  maybe Null shown . Name.definition (now subject) (sound subject) <$> offsetIn subject params
+definition _ subject = atCursor Name.definition shown subject
   where
     shown target =
       Location.location (uri (document subject)) (Name.source target) (Name.region target)
@@ -69,9 +76,7 @@ references _ subject params = do
 
 -- | The request @textDocument/documentHighlight@: the mentions in the document itself.
 highlights :: Method
-highlights _ subject params =
-  maybe Null (toJSON . map shown . own) . Reference.references (now subject) (sound subject)
-    <$> offsetIn subject params
+highlights _ subject = atCursor Reference.references (toJSON . map shown . own) subject
   where
     own found = filter (isInDocument subject) (places found)
     shown r = object ["range" .= rangeOf subject r, "kind" .= (1 :: Int)]

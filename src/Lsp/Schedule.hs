@@ -15,6 +15,7 @@ module Lsp.Schedule
     answer,
     answered,
     patience,
+    waitingTime,
   )
 where
 
@@ -238,7 +239,7 @@ publish :: Client -> OpenDocument -> Session -> (Session, [Effect], [Effect])
 publish c o session =
   ( session {documents = Map.insert there o {waiting = others} (documents session)},
     [Send (Diagnostic.publish c (document o) ((\s -> (s, reportsFor o s)) <$> latest o))],
-    [Send (answer c o (identifier r) (method r) (parameters r)) | r <- reverse ready]
+    [answer c o r | r <- reverse ready]
   )
   where
     there = Uri.toPath (Document.uri (document o))
@@ -261,11 +262,12 @@ faulty c why w session = case kind (work w) of
     failure = Failure InternalError (Status.fault why)
     (session', refusals) = refuseWaiting failure (path (work w)) session
 
--- | The answer to a request about a document: its identifier, its method, its parameters.
-answer :: Client -> OpenDocument -> Id -> Text -> Value -> Outgoing
-answer c o ident name params = case Request.method name of
-  Nothing -> Refusal ident (Failure MethodNotFound ("there is no request " <> name))
-  Just method' -> answered ident (method' c (OpenDocument.subject o)) params
+-- | The answer to a request about a document.
+answer :: Client -> OpenDocument -> WaitingRequest -> Effect
+answer c o r = Answer (identifier r) $ case Request.method (method r) of
+  Nothing ->
+    Refusal (identifier r) (Failure MethodNotFound ("there is no request " <> method r))
+  Just f -> answered (identifier r) (f c (OpenDocument.subject o)) (parameters r)
 
 -- | The answer that a function gives for the parameters of a request with this identifier. If the
 -- function fails, the request is refused with the reason.

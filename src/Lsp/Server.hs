@@ -3,7 +3,8 @@
 -- Four threads share the work. The reader receives messages. The writer sends messages, so that a
 -- client that does not read stops nothing else. The worker analyses texts; its work can be stopped
 -- at any time. The main thread takes events one after the other (a message, a result of the worker,
--- the passing of a deadline) and does only short steps.
+-- the passing of a deadline) and does only short steps. Each answer about a document is computed by
+-- a short thread of its own.
 module Lsp.Server
   ( Host (..),
     serve,
@@ -12,14 +13,19 @@ where
 
 import Control.Concurrent
   ( Chan,
+    MVar,
     ThreadId,
     forkIO,
     killThread,
+    modifyMVar_,
     newChan,
     newEmptyMVar,
+    newMVar,
     putMVar,
     readChan,
+    readMVar,
     takeMVar,
+    threadDelay,
     writeChan,
   )
 import Control.Exception
@@ -42,6 +48,7 @@ import GHC.Clock (getMonotonicTimeNSec)
 import GHC.Stats qualified as Stats
 import Lsp.Conversation
 import Lsp.Diagnostic qualified as Diagnostic
+import Lsp.Message (Id, Outgoing (Refusal))
 import Lsp.Message qualified as Message
 import Lsp.OpenDocument (Milliseconds (..))
 import Lsp.Schedule qualified as Schedule
@@ -79,24 +86,31 @@ serve host = do
   hSetBinaryMode (output host) True
   events <- newChan
   messages <- newChan
+  answers <- newMVar 0
   hasWritten <- newEmptyMVar
   _ <- forkIO (readMessages (input host) events)
   _ <- forkIO (writeMessages (output host) messages events >> putMVar hasWritten ())
-  ending <- converse Lines {host, events, messages} Nothing start
+  ending <- converse Lines {host, events, messages, answers} Nothing start
+  _ <- timeout patience (untilAnswered answers)
   writeChan messages Nothing
   isWritten <- timeout patience (takeMVar hasWritten)
   -- A client that does not read must not keep the process alive.
   unless (Maybe.isJust isWritten) (exitImmediately (ExitFailure 1))
   pure ending
   where
-    patience = 100000 -- µs
+    patience = 80000 -- µs
+    untilAnswered answers = do
+      count <- readMVar answers
+      unless (count == 0) (threadDelay 1000 >> untilAnswered answers)
 
 -- | The lines between the threads: events for the main thread, of which 'Nothing' is the end of a
 -- stream, and encoded messages for the writer, of which 'Nothing' is the last.
 data Lines = Lines
   { host :: Host,
     events :: Chan (Maybe Event),
-    messages :: Chan (Maybe ByteString)
+    messages :: Chan (Maybe ByteString),
+    -- | the count of answers that are being computed
+    answers :: MVar Int
   }
 
 -- | Receives messages until the end of the input.
@@ -249,7 +263,24 @@ performAll between session worker effects = case effects of
       mapM_ stopThread worker
       performAll between session Nothing more
     Stop ending -> pure (worker, Just ending)
+    Answer ident answer -> do
+      modifyMVar_ (answers between) (pure . (+ 1))
+      _ <- forkIO (answerBeside between ident answer)
+      performAll between session worker more
     Send _ -> performAll between session worker more
+
+-- | Computes and sends the answer to a request. The request is refused if this takes too long or
+-- raises an exception.
+answerBeside :: Lines -> Id -> Outgoing -> IO ()
+answerBeside between ident answer = do
+  computed <- try (timeout patience (evaluate (Message.encode answer)))
+  writeChan (messages between) . Just $ case computed of
+    Right (Just bytes) -> bytes
+    Right Nothing -> Message.encode (Refusal ident Schedule.tooLate)
+    Left e -> Message.encode (Refusal ident (Session.bug (firstLine e)))
+  modifyMVar_ (answers between) (pure . subtract 1)
+  where
+    patience = 1000 * Schedule.waitingTime
 
 -- | Stops a thread. The function does not wait until the thread has stopped.
 stopThread :: ThreadId -> IO ()

@@ -12,6 +12,7 @@ module Lsp.Session
     step,
     leaving,
     failed,
+    bug,
   )
 where
 
@@ -80,8 +81,12 @@ leaving session = case phase session of
 failed :: Text -> Event -> [Effect]
 failed why event = case event of
   Received (Request ident _ _) ->
-    [Send (Refusal ident (Failure InternalError (Status.fault why)))]
+    [Send (Refusal ident (bug why))]
   _ -> [Send (Status.logged why)]
+
+-- | The failure of a request whose answer has raised an exception with the text @why@.
+bug :: Text -> Failure
+bug why = Failure InternalError (Status.fault why)
 
 -- Requests ----------------------------------------------------------------------------------------
 
@@ -105,7 +110,7 @@ request now ident name params session = case (phase session, name) of
   (Running _, _)
     | Just ofAll <- Request.workspaceMethod name ->
       let subjects = map OpenDocument.subject (Map.elems (documents session))
-       in (session, [Send (Schedule.answered ident (ofAll subjects) params)])
+       in (session, [Answer ident (Schedule.answered ident (ofAll subjects) params)])
   (Running c, _) -> case (Request.method name, Aeson.parseEither named params) of
     (Nothing, _) -> refuse MethodNotFound ("there is no request " <> name)
     (_, Left why) -> refuse InvalidParams (Text.pack why)
@@ -127,7 +132,7 @@ asked now c path r session = case Map.lookup path (documents session) of
   Nothing -> (session, [Send (Result (identifier r) Null)])
   Just o
     | OpenDocument.isReady (Request.need (method r)) o ->
-      (session, [Send (Schedule.answer c o (identifier r) (method r) (parameters r))])
+      (session, [Schedule.answer c o r])
     | otherwise -> (adjusted path waits session, [])
   where
     -- The analysis begins now, because the user waits for the answer.

@@ -4,6 +4,7 @@ module Lsp.Subject
     Method,
     source,
     offsetIn,
+    atCursor,
     rangeOf,
     textEdit,
     markup,
@@ -12,7 +13,7 @@ module Lsp.Subject
 where
 
 import Base.Region (Region, Source)
-import Data.Aeson (Value, object, withObject, (.:), (.=))
+import Data.Aeson (Value (Null), object, withObject, (.:), (.=))
 import Data.Aeson.Types (Parser)
 import Data.Text (Text)
 import Lsp.Capability (Client (..))
@@ -48,6 +49,17 @@ source = Snapshot.source . now
 offsetIn :: Subject -> Value -> Parser Int
 offsetIn subject =
   withObject "parameters" (\o -> Position.offset (source subject) <$> o .: "position")
+
+-- | The answer about the position in the parameters of a request: @shown@ of what @find@ finds
+-- there, in the present snapshot or in the last sound one; null if it finds nothing.
+atCursor ::
+  (Snapshot -> Maybe Snapshot -> Int -> Maybe a) ->
+  (a -> Value) ->
+  Subject ->
+  Value ->
+  Parser Value
+atCursor find shown subject params =
+  maybe Null shown . find (now subject) (sound subject) <$> offsetIn subject params
 
 -- | The range of a region of the present text.
 rangeOf :: Subject -> Region -> LspRange

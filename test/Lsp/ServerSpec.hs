@@ -131,6 +131,16 @@ spec = do
           field "result" (last more) `shouldSatisfy` \case
             Object _ -> True
             _ -> False
+  it "answers other requests while an answer takes long" $
+    talking [] $ \to from -> do
+      mapM_ (send to) [initialize, opened slowHover]
+      (a, _) <- until' (isSettled 1) "" from
+      send to (question 1 "textDocument/hover" (about addressOf (11, 25)))
+      send to (question 2 "textDocument/documentSymbol" (about addressOf (0, 0)))
+      (b, first) <- until' ((== Number 2) . field "id") a from
+      (_, second) <- until' ((== Number 1) . field "id") b from
+      map (field "id") first `shouldBe` [Number 2]
+      field "result" (last second) `shouldNotBe` Null
   it "reads a message of several megabytes" $ do
     flange <- readText "examples/flange.part"
     let long = flange <> Text.replicate 40000 "-- шестьдесят 🙂\n"
@@ -162,6 +172,15 @@ opening =
       "part p\nmachine lkp-01f\ntool mill(diameter 2 mm)\nfeed 60 mm/min\ntolerance 0.02 mm\nfrom \
       \(0, 0)\nlet ж = 1\nlet b = ж + нет\n"
   ]
+
+-- | A program that takes long to evaluate. The hover at its fillet evaluates it again, to find the
+-- largest radius.
+slowHover :: Text
+slowHover =
+  "part p\nmachine iso6983\ntool mill(diameter 6 mm)\nfeed 100 mm/min\ntolerance 0.02 mm\nfrom \
+  \(0, -30)\nlet n = 100000\ncontour ring closed {\n  for k in 0..n - 1 { polar(1000, k * 360 / n) \
+  \}\n}\ncontour c closed {\n  line((0, 0), (50, 0)) fillet -4\n  line((50, 0), (50, 50))\n  \
+  \line((50, 50), (0, 0))\n}\n"
 
 initialize :: ByteString
 initialize = question 0 "initialize" (object ["capabilities" .= object []])

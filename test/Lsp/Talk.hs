@@ -103,9 +103,12 @@ happen event talk
     talk' =
       talk
         { session = session',
-          sent = reverse effects <> sent talk,
+          sent = reverse (map atOnce effects) <> sent talk,
           begun = foldl workAfter (begun talk) effects
         }
+    atOnce effect = case effect of
+      Answer _ answer -> Send answer
+      _ -> effect
     workAfter before effect = case effect of
       Begin work -> Just work
       Halt -> Nothing
@@ -154,7 +157,7 @@ pause milliseconds talk = case Schedule.deadline (session talk) of
        in pause (time talk + milliseconds - then') (happen Due talk {time = then'})
   _ -> talk {time = time talk + milliseconds}
 
--- | All effects of the server so far, in order.
+-- | All effects of the server so far, in order. An answer counts as sent.
 heard :: Talk -> [Effect]
 heard = reverse . sent
 
