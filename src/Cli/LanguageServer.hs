@@ -4,23 +4,20 @@ module Cli.LanguageServer
   )
 where
 
-import Base.Result qualified as Result
 import Cli.InputFile (identity, readContents, readerFrom)
 import Cli.Output (Exit (..), Reporter)
 import Cli.Output qualified as Output
-import Compile qualified
 import Data.Map.Strict (Map)
 import Data.Map.Strict qualified as Map
-import Data.Maybe qualified as Maybe
 import Data.Text (Text)
 import Data.Text qualified as Text
 import Lsp.Conversation (Ending (..))
 import Lsp.Server (Host (..))
 import Lsp.Server qualified as Server
-import Project.Job qualified as Job
 import Project.LoadedProgram (LoadedProgram)
 import Project.LoadedProgram qualified as LoadedProgram
 import Query.Snapshot qualified as Snapshot
+import Query.TapeFacts qualified as TapeFacts
 import System.Exit (ExitCode (..))
 import System.IO (stdin, stdout)
 import System.Posix.Process (exitImmediately)
@@ -36,8 +33,7 @@ serve reporter = do
           output = stdout,
           load = loadWith,
           check = Snapshot.checkWith values,
-          prove = \loaded ->
-            Maybe.isJust (Result.ifSound (Compile.compile (Job.forOwnMachine values loaded) loaded))
+          prove = TapeFacts.tapeFacts values
         }
   -- An orderly end of the run-time system would collect the garbage of a large analysis first.
   exitImmediately $ case ending of

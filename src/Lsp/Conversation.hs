@@ -23,6 +23,7 @@ import Lsp.Capability (Client)
 import Lsp.Message (Id, Incoming, Outgoing)
 import Lsp.OpenDocument (Milliseconds, OpenDocument)
 import Query.Snapshot (Snapshot)
+import Query.TapeFacts (TapeFacts)
 
 -- | The state of the conversation.
 data Session = Session
@@ -59,15 +60,15 @@ data WorkOrder = WorkOrder {number :: Int, kind :: WorkKind, path :: Text, text 
 data WorkKind = Analysis | TapeProof
   deriving stock (Eq, Show)
 
--- | A result of the worker. An analysis ends with 'AllChecked', a proof with 'Proven'. Each may end
--- with 'Fault' or 'TooLarge' instead.
+-- | A result of the worker. An analysis ends with 'AllChecked', a proof with 'TapeMade'. Each may
+-- end with 'Fault' or 'TooLarge' instead.
 data Outcome
   = -- | the results of evaluation; the analysis continues
     EvaluationChecked Snapshot
   | -- | the results of all passes
     AllChecked Snapshot
-  | -- | true if the tape is proven
-    Proven Bool
+  | -- | the tape is made and proven, or cannot be
+    TapeMade TapeFacts
   | -- | the text of an exception
     Fault Text
   | -- | the work was stopped because it needed too much memory

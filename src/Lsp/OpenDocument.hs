@@ -35,6 +35,7 @@ import Lsp.Uri qualified as Uri
 import Query.CarriedReport qualified as CarriedReport
 import Query.Snapshot (Snapshot)
 import Query.Snapshot qualified as Snapshot
+import Query.TapeFacts (TapeFacts)
 import Report.Report (Report)
 
 -- | A time in ms since an arbitrary origin.
@@ -76,9 +77,8 @@ data OpenDocument = OpenDocument
     due :: Maybe Milliseconds,
     -- | the time at which the tape may be made and proven; nothing if this is not to be done
     proofDue :: Maybe Milliseconds,
-    -- | true if the tape of the present text is proven, false if it is not, nothing if this is not
-    -- known
-    proven :: Maybe Bool,
+    -- | the facts about the tape of the present text; nothing if it is not made yet
+    tape :: Maybe TapeFacts,
     -- | requests that wait for results, the newest first
     waiting :: [WaitingRequest]
   }
@@ -95,7 +95,7 @@ open now document =
       unsettledSince = Just now,
       due = Just now,
       proofDue = Nothing,
-      proven = Nothing,
+      tape = Nothing,
       waiting = []
     }
 
@@ -108,7 +108,7 @@ changed now o =
       unsettledSince = Just since,
       due = Just (min (now `plus` silence) (since `plus` longestBurst)),
       proofDue = Nothing,
-      proven = Nothing
+      tape = Nothing
     }
   where
     since = Maybe.fromMaybe now (unsettledSince o)
@@ -125,7 +125,7 @@ evaluated snapshot o =
     }
 
 -- | Stores the results of all passes. The tape may be proven a moment later, if the text has no
--- error and is a program.
+-- error and there are frames for the machine that it names.
 settled :: Milliseconds -> Snapshot -> OpenDocument -> OpenDocument
 settled now snapshot o =
   o
@@ -137,7 +137,7 @@ settled now snapshot o =
           else sound o,
       lastSettled = Just snapshot,
       proofDue =
-        if Snapshot.isGood snapshot && not (Document.isDescription (document o))
+        if Snapshot.isGood snapshot && Snapshot.hasFrames snapshot
           then Just (now `plus` idleTime)
           else Nothing
     }
@@ -155,7 +155,7 @@ isReady need o = case need of
 -- one, and answers come from the last snapshot, with positions moved to the present text.
 subject :: OpenDocument -> Subject
 subject o =
-  Subject {Subject.document = document o, now, Subject.sound = before, Subject.proven = proven o}
+  Subject {Subject.document = document o, now, Subject.sound = before, Subject.tape = tape o}
   where
     (now, before) = case latest o of
       Just snapshot | stage o >= Evaluated -> (snapshot, sound o)

@@ -11,7 +11,7 @@ module Lsp.OutlineRequest
   )
 where
 
-import Base.Region (Region (..))
+import Base.Region (Located (..), Region (..))
 import Base.Region qualified as Region
 import Data.Aeson (Value (..), object, toJSON, withObject, (.:), (.=))
 import Data.Aeson.Types (Parser)
@@ -34,6 +34,8 @@ import Query.SemanticToken qualified as SemanticToken
 import Query.Snapshot qualified as Snapshot
 import Query.Symbol (DocumentSymbol, SymbolKind (..))
 import Query.Symbol qualified as Symbol
+import Surface.Syntax qualified as Surface
+import System.FilePath (takeDirectory, (</>))
 
 -- | The request @textDocument/documentSymbol@.
 symbols :: Method
@@ -116,23 +118,30 @@ inlayHints client subject = withObject "parameters" $ \o -> do
           "paddingLeft" .= not (InlayHint.isType h)
         ]
 
--- | The request @textDocument/documentLink@: the names of imported files and of table files.
+-- | The request @textDocument/documentLink@: the names of imported files, of table files and of
+-- machine descriptions.
 documentLinks :: Method
 documentLinks _ subject _ =
   pure
     ( toJSON
         [ object ["range" .= rangeOf subject at, "target" .= Uri.fromPath path]
-          | (at, path) <- Snapshot.imports (now subject),
+          | (at, path) <- Snapshot.imports (now subject) <> descriptions,
             start at < Text.length (Region.text (source subject))
         ]
     )
+  where
+    descriptions =
+      [ (at, Text.pack (takeDirectory itself </> Text.unpack file))
+        | Located _ (Surface.Machine (Located at (Surface.Described file))) <-
+            Surface.statements (Snapshot.program (now subject))
+      ]
+    itself = Text.unpack (Region.mainFile (source subject))
 
 -- | The request @textDocument/codeLens@.
 codeLenses :: Method
 codeLenses _ subject _ =
-  pure (toJSON (map lens (CodeLens.codeLenses (now subject) tape)))
+  pure (toJSON (map lens (CodeLens.codeLenses (now subject) (tape subject))))
   where
-    tape = CodeLens.TapeFacts Nothing <$> proven subject
     lens l =
       object
         [ "range" .= rangeOf subject (CodeLens.place l),

@@ -46,6 +46,7 @@ import Lsp.Request qualified as Request
 import Lsp.Status (Interruption (..))
 import Lsp.Status qualified as Status
 import Lsp.Uri qualified as Uri
+import Query.TapeFacts (TapeFacts (isProven))
 
 -- | The time in ms that a request waits for an analysis. An analysis that takes longer shows its
 -- progress in the editor.
@@ -223,9 +224,9 @@ worked c now w outcome session = case Map.lookup there (documents session) of
       let (session', messages, answers) = publish c (OpenDocument.settled now snapshot o) idle
           ended = Send (Status.settled (document o)) : endOfProgress c w
        in (session', messages <> ended <> answers)
-    Proven isProven ->
-      ( adjusted there (\d -> d {proven = Just isProven}) idle,
-        map Send (Status.proofEnded c (lastWork session) (document o) isProven)
+    TapeMade facts ->
+      ( adjusted there (\d -> d {tape = Just facts}) idle,
+        map Send (Status.proofEnded c (lastWork session) (document o) (isProven facts))
       )
     Fault why -> faulty c why w idle
     TooLarge -> halt c TookTooMuchMemory w session

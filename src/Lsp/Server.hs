@@ -58,6 +58,7 @@ import Project.LoadedProgram (LoadedProgram)
 import Project.MachineDescription qualified as MachineDescription
 import Query.Snapshot (Check)
 import Query.Snapshot qualified as Snapshot
+import Query.TapeFacts (TapeFacts)
 import System.Exit (ExitCode (..))
 import System.IO (Handle, hFlush, hSetBinaryMode)
 import System.Posix.Process (exitImmediately)
@@ -75,8 +76,8 @@ data Host = Host
     load :: [(Text, Text)] -> Text -> Text -> IO LoadedProgram,
     -- | finds the mistakes of a loaded program
     check :: Check,
-    -- | makes the tape of a program for its machine and proves it; true if it is proven
-    prove :: LoadedProgram -> Bool
+    -- | makes the tape of a program for its machine and proves it
+    prove :: LoadedProgram -> TapeFacts
   }
 
 -- | Serves a client until it sends @exit@ or a stream ends.
@@ -314,5 +315,5 @@ perform Lines {host, events} texts WorkOrder {number, kind, path, text} = do
           tell (AllChecked complete)
       TapeProof -> do
         loaded <- load host texts path text
-        isProven <- evaluate (prove host loaded)
-        tell (Proven isProven)
+        facts <- evaluate (prove host loaded)
+        tell (TapeMade facts)

@@ -22,18 +22,18 @@ import Lsp.Position (LspRange)
 import Lsp.Position qualified as Position
 import Query.Snapshot (Snapshot)
 import Query.Snapshot qualified as Snapshot
+import Query.TapeFacts (TapeFacts)
 
 -- | The document that a request is about. @now@ is the snapshot of its present text. @sound@ is the
 -- snapshot of its last text without errors; nothing if there was none.
 --
 -- If the present text is not analysed yet, @now@ has only this text and @sound@ is the last
--- snapshot. @proven@ is true if the tape of the present text is proven, false if it is not, and
--- nothing if this is not known yet.
+-- snapshot. @tape@ has the facts about the tape of the present text; nothing if it is not made yet.
 data Subject = Subject
   { document :: Document,
     now :: Snapshot,
     sound :: Maybe Snapshot,
-    proven :: Maybe Bool
+    tape :: Maybe TapeFacts
   }
 
 -- | A function that answers one kind of request. The arguments: the capabilities of the client, the

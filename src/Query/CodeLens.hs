@@ -2,7 +2,6 @@
 -- and the whole tape, above each machining statement its passes, its length and its time.
 module Query.CodeLens
   ( CodeLens (..),
-    TapeFacts (..),
     codeLenses,
   )
 where
@@ -17,15 +16,11 @@ import Query.Machining qualified as Machining
 import Query.Measurement qualified as Measurement
 import Query.Snapshot (Snapshot)
 import Query.Snapshot qualified as Snapshot
+import Query.TapeFacts (TapeFacts (..))
 import Surface.Syntax qualified as Surface
 
 -- | A line of facts above a statement.
 data CodeLens = CodeLens {place :: Region, title :: Text}
-  deriving stock (Eq, Show)
-
--- | Facts about the finished tape: its length in m if it has one, and true if it is proven, false
--- if the proof has found something.
-data TapeFacts = TapeFacts {metres :: Maybe Double, isProven :: Bool}
   deriving stock (Eq, Show)
 
 -- | The lenses of a program. The facts about its tape are absent until the tape is made.

@@ -11,6 +11,7 @@ module Query.Snapshot
     force,
     isGood,
     hasFacts,
+    hasFrames,
     importOf,
     reloaded,
   )
@@ -177,6 +178,10 @@ isGood = not . any Report.isError . reports
 -- | True if the names of the program have known meanings.
 hasFacts :: Snapshot -> Bool
 hasFacts = not . null . Mention.mentions . facts
+
+-- | True if the program has frames for the machine that it names.
+hasFrames :: Snapshot -> Bool
+hasFrames = any ((> 0) . Machining.frames) . machines
 
 -- | Maps a region of an imported file or of a table file to the program's own text. The result is
 -- the region of the file name in an import or a table statement of the program. This statement

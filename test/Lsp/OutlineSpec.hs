@@ -28,7 +28,7 @@ spec = do
             { document = Document.open (Uri uri) Nothing text,
               now = look text,
               sound = Nothing,
-              proven = Nothing
+              tape = Nothing
             }
         subjects =
           [opened "file:///a" "let pin = 1\n", opened "file:///b" "let span = 1\nlet c = 2\n"]
@@ -52,20 +52,23 @@ spec = do
   it "hints are off unless the client asks for them" $
     requested "textDocument/inlayHint" (object []) ["range" .= whole] "let a = 1 mm\n"
       `shouldBe` toJSON ([] :: [Value])
-  it "links lead to imported files" $
+  it "links lead to imported files and to machine descriptions" $
     [ (field "target" l, field "range" l)
       | l <-
           listed
             ( answered
                 "textDocument/documentLink"
                 []
-                ( open addressOf 1 "part p\nimport \"pins.part\"\n" $
+                ( open addressOf 1 "part p\nimport \"pins.part\"\nmachine \"shop.machine\"\n" $
                     open "file:///tmp/pins.part" 1 "part q\n" (running (object []))
                 )
             )
     ]
       `shouldBe` [ ( String "file:///tmp/pins.part",
                      object ["start" .= at (1, 7), "end" .= at (1, 18)]
+                   ),
+                   ( String "file:///tmp/shop.machine",
+                     object ["start" .= at (2, 8), "end" .= at (2, 22)]
                    )
                  ]
   it "foldings have lines" $ do

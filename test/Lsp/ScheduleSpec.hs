@@ -119,12 +119,21 @@ spec = do
         `shouldBe` [Number 1, Number 2]
   describe "a tape" $ do
     it "is proven in idle time, and not while the text changes" $ do
-      let talk = slow settledRight
+      let talk = slow (pause 0 (open addressOf 1 moving ready))
       analyses (pause 499 talk) `shouldBe` []
       map fst (analyses (pause 500 talk)) `shouldBe` [TapeProof]
       map (fmap fst) (orders (replace addressOf 2 wrong (pause 500 talk)))
         `shouldBe` [Just TapeProof, Nothing]
-      [p | Send (Notify "partc/proof" p) <- heard (finish (pause 500 talk))] `shouldNotBe` []
+    it "that is proven is shown with its length" $ do
+      let talk = finish (pause 500 (slow (pause 0 (open addressOf 1 moving ready))))
+          lenses = ask "textDocument/codeLens" (about addressOf (0, 0)) talk
+      [field "proven" p | Send (Notify "partc/proof" p) <- heard talk] `shouldBe` [Bool True]
+      fmap (map (field "title" . field "command") . listed) lenses `shouldSatisfy` \case
+        Right (String title : _) ->
+          all (`Text.isInfixOf` title) ["lkp-01f", "m of tape", "proven"]
+        _ -> False
+    it "of a text without moves is not made" $
+      analyses (pause 5000 (slow settledRight)) `shouldBe` []
     it "of a text with errors is not made" $
       analyses (pause 5000 (slow (pause 0 (open addressOf 1 wrong ready)))) `shouldBe` []
   describe "a lone surrogate" $
@@ -184,11 +193,12 @@ orders talk = concatMap order (heard talk)
 analyses :: Talk -> [(WorkKind, Text)]
 analyses = Maybe.catMaybes . orders
 
-header, right, wrong, wrongSide :: Text
+header, right, wrong, moving, wrongSide :: Text
 header =
   "part p\nmachine lkp-01f\ntool mill(diameter 2 mm)\nfeed 60 mm/min\ntolerance 0.02 mm\nfrom (0, \
   \0)\n"
 right = header <> "let a = 1\nlet b = a\n"
 wrong = header <> "let a = 1\nlet b = c\n"
+moving = header <> "rapid (10, 0)\n"
 wrongSide =
   header <> "contour c open { line((0, 0), (50, 0)) }\nmill c outside { approach (0, 40) }\n"

@@ -24,6 +24,7 @@ import Lsp.Transport qualified as Transport
 import Project.LoadedProgram qualified as LoadedProgram
 import Query.Snapshot (Check)
 import Query.Snapshot qualified as Snapshot
+import Query.TapeFacts qualified as TapeFacts
 import System.Environment (getEnvironment)
 import System.Exit (ExitCode (..))
 import System.IO (Handle, hClose, hFlush, hSetBinaryMode)
@@ -294,7 +295,7 @@ inProcess check act = within $ do
               output,
               load = \_ path text -> pure (LoadedProgram.fromText path text),
               check,
-              prove = const True
+              prove = TapeFacts.tapeFacts []
             }
           >>= putMVar done
       )

@@ -53,9 +53,11 @@ import Lsp.Message (Failure, Incoming (..), Outgoing (..))
 import Lsp.OpenDocument (Milliseconds (..))
 import Lsp.Schedule qualified as Schedule
 import Lsp.Session qualified as Session
+import Project.LoadedProgram (LoadedProgram)
 import Project.LoadedProgram qualified as LoadedProgram
 import Query.Snapshot (Snapshot)
 import Query.Snapshot qualified as Snapshot
+import Query.TapeFacts qualified as TapeFacts
 import Surface.Import qualified as Import
 
 -- | A conversation: the session, the time in ms, all effects of the server so far, the last one
@@ -123,7 +125,10 @@ finish talk = case begun talk of
       let (early, complete) = analysed (session talk) work
        in happen (Worked (number work) (AllChecked complete)) $
             (evaluateOnly early work talk) {begun = Nothing}
-    TapeProof -> happen (Worked (number work) (Proven True)) talk {begun = Nothing}
+    TapeProof ->
+      happen
+        (Worked (number work) (TapeMade (TapeFacts.tapeFacts [] (loadedFor (session talk) work))))
+        talk {begun = Nothing}
 
 -- | Lets a slow worker end the evaluation.
 finishEvaluation :: Talk -> Talk
@@ -137,16 +142,18 @@ evaluateOnly early work talk =
     { isSlow = isSlow talk
     }
 
--- | The snapshots of a document. Imports find only open documents.
+-- | The snapshots of a document.
 analysed :: Session -> WorkOrder -> (Snapshot, Snapshot)
-analysed session work =
-  Snapshot.inStages
-    (Snapshot.checkWith [])
-    (runIdentity (LoadedProgram.load (Import.byName opened) (Text.unpack (path work)) (text work)))
+analysed state work = Snapshot.inStages (Snapshot.checkWith []) (loadedFor state work)
+
+-- | The program of a document. Imports find only open documents.
+loadedFor :: Session -> WorkOrder -> LoadedProgram
+loadedFor state work =
+  runIdentity (LoadedProgram.load (Import.byName opened) (Text.unpack (path work)) (text work))
   where
     opened there =
       Identity (maybe (Left "it is not open") Right (lookup (Text.pack there) texts))
-    texts = Session.openTexts session
+    texts = Session.openTexts state
 
 -- | Lets the clock advance by a time in ms; deadlines within it are handled.
 pause :: Int -> Talk -> Talk

@@ -6,7 +6,6 @@ import Base.Region qualified as Region
 import Data.Text (Text)
 import Data.Text qualified as Text
 import Files (readText)
-import Query.CodeLens (TapeFacts (..))
 import Query.CodeLens qualified as CodeLens
 import Query.Folding (Folding (..))
 import Query.Folding qualified as Folding
@@ -17,6 +16,7 @@ import Query.Selection qualified as Selection
 import Query.SemanticToken (SemanticToken (..), TokenKind (..))
 import Query.SemanticToken qualified as SemanticToken
 import Query.Symbol qualified as Symbol
+import Query.TapeFacts (TapeFacts (..))
 import Test.Hspec
 
 spec :: Spec
