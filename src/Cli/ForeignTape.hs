@@ -1,93 +1,118 @@
--- | Sentences about a tape that comes from elsewhere: the first row in which it differs from the
--- tape that the compiler makes of the program, and the machines that can read it.
+-- | Reports on a tape that comes from elsewhere: damage of the tape, and findings of its proof.
+--
+-- A tape that is a text file, such as G-code, is shown by its lines, like a program. A punched tape
+-- is described by its rows.
 module Cli.ForeignTape
-  ( sentences,
-    withReaders,
+  ( TapeFile (..),
+    damaged,
+    otherDamaged,
+    disproven,
   )
 where
 
 import Base.Decimal qualified as Decimal
 import Base.PulseVector (Pulses3 (..))
+import Base.Region (Region (Region), Source)
+import Base.Region qualified as Region
+import Cli.TapeDifference (isTextFile, lineAround, textOf, withDifference)
 import Compile (Compiled, Punched (..))
 import Compile qualified
-import Data.Bits (testBit)
 import Data.ByteString qualified as ByteString
 import Data.Text (Text)
 import Data.Text qualified as Text
-import Data.Word (Word8)
+import Frame.Frame (Frame)
 import Frame.Frame qualified as Frame
 import Machine.BuiltIn qualified as BuiltIn
 import Machine.Machine (Machine, MachineName (..))
 import Machine.Machine qualified as Machine
-import Machine.TapeCode qualified as TapeCode
-import Report.Report (Report (..))
+import Report.Report (Label (..), Report (..), ReportPlace (..))
+import Report.Report qualified as Report
+import Tape.Damage (Damage)
+import Tape.Damage qualified as Damage
 import Tape.Punch qualified as Tape
 import Tape.RowMeaning (Row (..))
-import Tape.RowMeaning qualified as RowMeaning
 import Tape.Tape (Tape (..))
+import Verify.Proof (Proof)
+import Verify.Proof qualified as Proof
 
--- | The sentences about the first row that differs: the row that is read and the one that the
--- program's own tape has there. Empty unless both tapes have the same number of rows.
-sentences :: Compiled -> Tape -> [Text]
-sentences compiled (Tape given) = case differing of
-  n : more
-    | ByteString.length given == ByteString.length own,
-      planned : _ <- drop n rows ->
-      [ "Row "
-          <> Decimal.whole (n + 1)
-          <> maybe "" (\k -> " (frame " <> Decimal.whole k <> ")") (frame planned)
-          <> " has "
-          <> holesText machine rows (ByteString.index given n)
-          <> "; this program's own tape has "
-          <> holesText machine rows (holes planned)
-          <> " there: "
-          <> meaning planned
-          <> ".",
-        case length more of
-          0 -> "All other rows are the same."
-          1 -> "One more row differs."
-          k -> Decimal.whole k <> " more rows differ."
-      ]
-  _ -> []
+-- | A tape that is compared with a program: the name of its file, its rows, and the frames that are
+-- read from it, or the damage because of which they cannot be read.
+data TapeFile = TapeFile {fileName :: Text, rows :: Tape, contents :: ~(Either Damage [Frame])}
+
+-- | The source and the report of damage to the tape in the file @name@. The report names the
+-- built-in machines that can read the tape.
+damaged :: Machine -> Text -> Tape -> Damage -> (Source, Report)
+damaged machine name given damage
+  | isTextFile machine = (Region.fromText name text, withReaders machine given (inText report))
+  | otherwise = (Region.fromText name "", withReaders machine given report)
+  where
+    report = Tape.toReport damage
+    text = textOf given
+    inText r = case place r of
+      InTape n
+        | let at = max 1 (min n (Text.length text)) ->
+          r {title = Damage.fault damage, place = InSource (Region (at - 1) at)}
+      _ -> r
+
+-- | The source and the report of damage to a tape that should be the one of a program. The report
+-- also has the first difference from the program's own tape.
+otherDamaged :: Compiled -> TapeFile -> Damage -> (Source, Report)
+otherDamaged compiled TapeFile {fileName, rows} damage =
+  (source, withDifference compiled 0 rows report)
+  where
+    (source, report) = damaged (Compile.machine compiled) fileName rows damage
+
+-- | The source and the reports of the findings about a tape. The argument
+-- @source@ is the program's source; the result contains the text of the tape as well, if it is a
+-- text file. @frames@ are the frames that are read from the tape. The first report has the first
+-- difference from the program's own tape.
+disproven :: Compiled -> TapeFile -> [Frame] -> Source -> Proof -> (Source, [Report])
+disproven compiled TapeFile {fileName, rows = given} frames source proof
+  | isTextFile machine =
+    ( Region.addFile fileName (textOf given) source,
+      differing (zipWith withLine (Proof.findings proof) found)
+    )
+  | otherwise = (source, differing found)
   where
     machine = Compile.machine compiled
-    Punched {program, tape = Tape own} = Compile.punched compiled
-    rows = Tape.rows machine (Frame.start program) (map Frame.frame (Frame.plannedFrames program))
-    differing =
-      [ i
-        | (i, a, b) <- zip3 [0 ..] (ByteString.unpack given) (ByteString.unpack own),
-          a /= b
-      ]
+    found = Proof.toReports machine proof
+    base = Region.nextOffset source
+    differing reports = case Report.sorted reports of
+      first : more -> withDifference compiled base given first : more
+      [] -> []
+    withLine finding report =
+      report
+        { others =
+            others report
+              <> [ Label (lineAround base given at) ("frame " <> Decimal.whole n)
+                   | Just n <- [Proof.frameOf finding],
+                     at : _ <- [[i | (i, Row {frame = Just k}) <- zip [0 ..] written, k == n]]
+                 ]
+        }
+    -- A tape may contain rows that the reader skips; then the lines of the frames are not known.
+    written = case Tape.rows machine start frames of
+      ours | Tape (ByteString.pack (map holes ours)) == given -> ours
+      _ -> []
+    start = Frame.start (program (Compile.punched compiled))
 
--- | The holes of a row as binary digits, the highest track first, with the symbol that they mean if
--- one of the rows @known@ has these holes.
-holesText :: Machine -> [Row] -> Word8 -> Text
-holesText machine known w =
-  "the holes "
-    <> Text.pack [if testBit w (k - 1) then '1' else '0' | k <- [count, count - 1 .. 1]]
-    <> Text.concat (take 1 symbols)
-  where
-    count = TapeCode.tracks (Machine.medium machine)
-    symbols =
-      [" (" <> RowMeaning.shown c <> ")" | Row {holes, symbol = Just c} <- known, holes == w]
-
--- | Adds to a report on a tape, which the given machine cannot read, the names of the built-in
--- machines that can.
+-- | The report on a tape that the given machine cannot read. It says for which built-in machines
+-- the tape is, if any of them can read it.
 withReaders :: Machine -> Tape -> Report -> Report
 withReaders machine given report = case readers of
   [] -> report
-  first : more ->
+  first : _ ->
     report
-      { hints =
-          [ Text.intercalate " and " readers
-              <> (if null more then " reads" else " read")
-              <> " this tape: write -t "
-              <> first
-              <> "."
-          ]
-            <> hints report
+      { title =
+          "this is a tape of "
+            <> Text.intercalate " or " readers
+            <> ", and "
+            <> own
+            <> " cannot read it",
+        message = ["As a tape of " <> own <> ": " <> title report <> "."] <> message report,
+        hints = ["Write -t " <> first <> "."]
       }
   where
+    MachineName own = Machine.name machine
     readers =
       [ name
         | m <- BuiltIn.machines,

@@ -60,13 +60,14 @@ import Project.Job qualified as Job
 import Project.Target qualified as Target
 import Query.Snapshot qualified as Snapshot
 import Report.Explanation qualified as Explanation
-import Report.Report (Report (message))
+import Report.Report (Report)
 import Sheet.Error qualified as Sheet
 import Sheet.FromPart qualified as Sheet
 import Sheet.FromText qualified as Sheet
 import Sheet.ToSurface qualified as Sheet
 import Sheet.ToText qualified as Sheet
 import Sheet.Unsupported qualified as Unsupported
+import Tape.Damage (Damage)
 import Tape.Punch qualified as Tape
 import Tape.Tape (Tape (..))
 import Verify.PulseProof (PulseProof)
@@ -140,15 +141,29 @@ check reporter targets file = withInput reporter file targets $ \given ->
 -- of the machine's controller.
 verify :: Reporter -> FilePath -> Maybe Text -> Maybe FilePath -> Bool -> IO Exit
 verify reporter file target tapeFile withPulses =
-  withInput reporter file (maybeToList target) $ \given ->
-    settled reporter given (onFirstMachine target given) $ \compiled -> do
-      foreignTape <- traverse readBytes tapeFile
-      case maybe (Right (tape (Compile.punched compiled))) (fmap Tape) foreignTape of
-        Left e -> failWith reporter (maybe "" displayName tapeFile) e
-        Right rows -> withPulseProof given compiled rows $ \pulses ->
-          verifyTape reporter given (tapeName given) compiled rows pulses
+  withInput reporter file (maybeToList target) $ \given -> do
+    foreignTape <- traverse readBytes tapeFile
+    settled reporter given (withContents foreignTape (onFirstMachine target given)) $
+      \(compiled, found) -> case found of
+        Left e -> failWith reporter (tapeName given) e
+        Right (rows, contents) ->
+          withPulseProof given compiled rows $
+            verifyTape reporter given (ForeignTape.TapeFile (tapeName given) rows contents) compiled
   where
     tapeName given = maybe (name given) displayName tapeFile
+    -- The warnings about the program are left out if the tape cannot be read.
+    withContents foreignTape result = case (foreignTape, found) of
+      (Just _, Just (_, Left _)) -> both {warnings = []}
+      (Just _, Just (_, Right (_, Left _))) -> both {warnings = []}
+      _ -> both
+      where
+        both = result {output = found}
+        found = contentsOf <$> output result
+        contentsOf compiled =
+          (compiled, withFrames <$> maybe (Right (ownTape compiled)) (fmap Tape) foreignTape)
+          where
+            withFrames rows = (rows, readTape compiled rows)
+        ownTape = tape . Compile.punched
     withPulseProof given compiled rows continue
       | not withPulses = continue Nothing
       | otherwise = case Compile.provePulses compiled rows of
@@ -159,37 +174,42 @@ verify reporter file target tapeFile withPulses =
               noPulses = maybe NoController (const NoPulses) (Machine.controller machine)
            in failWith reporter (name given) (noPulses machineName)
 
--- | Reads the frames from a tape, compares them with the part and prints the proof, and the proof
--- of the pulses if there is one. @tapeName@ is the tape's name in reports; @compiled@ has the
--- toolpath and the frames that the tape should have.
+-- | The frames of a tape that should be the one of a program.
+readTape :: Compiled -> Tape -> Either Damage [Frame]
+readTape Compiled {Compile.machine, Compile.punched} =
+  Tape.readExpected machine (Frame.start (program punched)) (framesOf punched)
+
+-- | Compares the frames that are read from a tape with the part and prints the proof, and the proof
+-- of the pulses if there is one. @compiled@ has the toolpath and the frames that the tape should
+-- have.
 verifyTape ::
   Reporter ->
   Input ->
-  Text ->
+  ForeignTape.TapeFile ->
   Compiled ->
-  Tape ->
   Maybe (Result Report Report PulseProof) ->
   IO Exit
-verifyTape reporter given tapeName compiled rows pulses =
-  case Tape.readExpected machine (Frame.start (program punched)) (framesOf punched) rows of
+verifyTape reporter given tapeFile compiled pulses =
+  case ForeignTape.contents tapeFile of
     Left damage -> do
-      let damaged = ForeignTape.withReaders machine rows (Tape.toReport damage)
-          report' = damaged {message = message damaged <> ForeignTape.sentences compiled rows}
-      Failed <$ Output.showReports reporter tapeName (source given) [report']
+      let (text, damaged) = ForeignTape.otherDamaged compiled tapeFile damage
+      Failed <$ Output.showReports reporter tapeName text [damaged]
     Right read' -> do
       let result = Compile.proveTape part compiled read'
       Progress.during ("proving " <> tapeName) (evaluated result)
       exit <- maybe (pure Done) (printResult reporter . ProofTable.proof machine) (output result)
       exitOfPulses <- maybe (pure Done) printPulses pulses
-      let found = errors result <> maybe [] errors pulses
-          findings = case found of
-            first : more ->
-              first {message = message first <> ForeignTape.sentences compiled rows} : more
-            [] -> []
-      _ <- Output.showReports reporter (name given) (source given) findings
+      let (texts, wrong) =
+            maybe
+              (source given, errors result)
+              (ForeignTape.disproven compiled tapeFile read' (source given))
+              (output result)
+          findings = wrong <> maybe [] errors pulses
+      _ <- Output.showReports reporter (name given) texts findings
       pure (if null findings then max exit exitOfPulses else Disproven)
   where
-    Compiled {Compile.machine, Compile.punched} = compiled
+    tapeName = ForeignTape.fileName tapeFile
+    machine = Compile.machine compiled
     part = snd <$> output (Compile.evaluate (values given) (loaded given))
     printPulses result = do
       Progress.during ("running " <> tapeName) (evaluated result)
@@ -305,11 +325,9 @@ drawTape reporter target range tapeFile = withTape reporter target tapeFile $ \m
 withTape :: Reporter -> Maybe Text -> FilePath -> (Machine -> [Frame] -> IO Exit) -> IO Exit
 withTape reporter target tapeFile continue =
   withTapeFile reporter target tapeFile $ \machine rows -> case Tape.read machine 0 rows of
-    Left damage ->
-      failWithReport
-        reporter
-        (displayName tapeFile)
-        (ForeignTape.withReaders machine rows (Tape.toReport damage))
+    Left damage -> do
+      let (text, damaged) = ForeignTape.damaged machine (displayName tapeFile) rows damage
+      Failed <$ Output.showReports reporter (displayName tapeFile) text [damaged]
     Right read' -> continue machine read'
 
 -- Machines, explanations, editors -----------------------------------------------------------------

@@ -141,7 +141,7 @@ assembled context work at side settings passes = do
         radius = cutterRadius tool,
         gear = case kind tool of BladeCutter wheel -> Just wheel; _ -> Nothing,
         tolerance,
-        places = MillingPlaces {statement = at, toolSize = cutterSize tool, accuracy},
+        places = placesOf at tool accuracy settings,
         feed,
         approach,
         retract,
@@ -160,6 +160,18 @@ assembled context work at side settings passes = do
           Nothing -> Nothing,
         rest = maybe Refused (const Allowed) (Checked.restAllowed settings)
       }
+
+-- | The places that a fix of a milling may change. @at@ is the region of the statement, @accuracy@
+-- that of the tolerance.
+placesOf :: Region -> Cutter -> Region -> Checked.Settings -> MillingPlaces
+placesOf at tool accuracy settings =
+  MillingPlaces
+    { statement = at,
+      toolSize = cutterSize tool,
+      accuracy,
+      leadInSize = region . snd <$> Checked.leadIn settings,
+      leadOutSize = region . snd <$> Checked.leadOut settings
+    }
 
 contourOf :: Value -> Contour
 contourOf v = case v of

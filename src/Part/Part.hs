@@ -238,7 +238,10 @@ data MillingPlaces = MillingPlaces
     -- at the contour depends on more than its diameter
     toolSize :: Maybe Region,
     -- | the tolerance
-    accuracy :: Region
+    accuracy :: Region,
+    -- | the lengths or radii of the lead-in and of the lead-out
+    leadInSize :: Maybe Region,
+    leadOutSize :: Maybe Region
   }
   deriving stock (Eq, Show)
 

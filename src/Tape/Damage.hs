@@ -11,6 +11,7 @@ module Tape.Damage
   ( Damage (..),
     Reason (..),
     toReport,
+    fault,
   )
 where
 
@@ -126,6 +127,10 @@ toReport (Damage at n c why) =
       (Nothing, _) -> ""
       (Just k, Nothing) -> " (frame " <> Decimal.whole k <> ")"
       (Just k, Just w) -> " (frame " <> Decimal.whole k <> ", " <> Machine.contentName w <> ")"
+
+-- | The fault in a few words, without the row and the frame.
+fault :: Damage -> Text
+fault = reasonText . reason
 
 -- | Sentences below the title of a report; the list is empty if the title says everything.
 explanation :: Reason -> [Text]

@@ -31,6 +31,8 @@ import Report.Report (Label (..), Report (..))
 import Toolpath.CompensationReport (Unsupported (..))
 import Toolpath.CompensationReport qualified as CompensationReport
 import Toolpath.ErrorFix qualified as ErrorFix
+import Toolpath.LinkingMoveError (LinkingMoveError)
+import Toolpath.LinkingMoveError qualified as LinkingMoveError
 import Toolpath.Tolerance qualified as Tolerance
 import Toolpath.WarningReport
 
@@ -59,6 +61,8 @@ data Error
     -- the depth of the cut, the kind of intrusion, the position of the centre,
     -- and, for the last move of an approach to a contour, the beginning of this contour
     CutsPart Region Segment Element Mm Intrusion Point (Maybe ContourBeginning)
+  | -- | linking moves that cut into the part for one cause
+    WrongLink LinkingMoveError
   | -- | a hole that cuts into a contour: the region of the hole, its centre, the element, the depth
     -- of the cut, the radius of the drill, the region of its diameter
     HoleCuts Region Point Element Mm Mm (Maybe Region)
@@ -260,6 +264,7 @@ toReport err = case err of
             \coordinate is a height."
           ]
       }
+  WrongLink fault -> LinkingMoveError.toReport fault
   HoleCuts region p element deep drill size ->
     ( at
         region

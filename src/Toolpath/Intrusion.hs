@@ -13,7 +13,8 @@ where
 import Base.Quantity (Mm (..), minus, plus, times)
 import Base.Region (Located (..), Region (..))
 import Data.Function (on)
-import Data.List (groupBy, minimumBy, nubBy, sortOn)
+import Data.List (groupBy, maximumBy, minimumBy, nubBy, sortOn)
+import Data.List.NonEmpty (NonEmpty (..))
 import Data.List.NonEmpty qualified as NonEmpty
 import Data.Map.Strict qualified as Map
 import Data.Maybe (mapMaybe)
@@ -35,6 +36,8 @@ import Part.Part (Accuracy, Contour (elements), Milling (contour, radius, side),
 import Part.Part qualified as Part
 import Toolpath.Error (ContourBeginning (..), Error (..), Intrusion (..))
 import Toolpath.LinkingMove qualified as LinkingMove
+import Toolpath.LinkingMoveError (CheckedMoves (CheckedMoves), LinkingMoveError (OnOtherSide))
+import Toolpath.LinkingMoveError qualified as LinkingMoveError
 import Toolpath.MillingSide (keyword, leadingSide)
 import Toolpath.PointedIntrusion (PointedIntrusion (PointedIntrusion))
 import Toolpath.PointedIntrusion qualified as PointedIntrusion
@@ -57,6 +60,7 @@ intrusions path = worst (concatMap (intrusionsOfBlock machined) (Toolpath.blocks
         (Map.elems (Map.fromListWith (flip (<>)) [(regionOf e, [e]) | e <- errors]))
     regionOf e = case e of
       CutsPart at _ _ _ _ _ _ -> at
+      WrongLink fault -> LinkingMoveError.place fault
       HoleCuts at _ _ _ _ _ -> at
       MillsItself at _ _ _ _ -> at
       MillsAnother at _ _ _ _ -> at
@@ -117,23 +121,46 @@ intrusionsOfPass machined b = case b of
         cutting = Intruder {tool = radius milling, own = Just (number pass), leaving = Nothing}
         (ahead, onto) = splitAt (length approach - 1) approach
         isClear = null . found linking
-     in map (onItself milling (keyword at)) (concatMap (found linking) (ahead <> retract))
-          <> [ onItself milling (keyword at) e
-               | m <- onto,
-                 e <- map (beginning milling (Toolpath.reach pass) isClear m) (found linking m)
-             ]
-          <> mapMaybe (throughProfile milling) (approach <> retract)
-          <> take
-            1
-            ( concatMap
-                (map (asMilling (keyword at) . onItself milling (keyword at)) . found cutting)
-                (if isAlone (number pass) then [] else NonEmpty.toList cut)
-            )
+        links =
+          map (onItself milling (keyword at)) (concatMap (found linking) (ahead <> retract))
+            <> [ onItself milling (keyword at) e
+                 | m <- onto,
+                   e <- map (beginning milling (Toolpath.reach pass) isClear m) (found linking m)
+               ]
+        along =
+          mapMaybe (throughProfile milling) (approach <> retract)
+            <> take
+              1
+              ( concatMap
+                  (map (asMilling (keyword at) . onItself milling (keyword at)) . found cutting)
+                  (if isAlone (number pass) then [] else NonEmpty.toList cut)
+              )
+     in case diagnosed (null . concatMap (found linking)) b links of
+          -- The other intrusions may follow from the wrong side.
+          [e@(WrongLink OnOtherSide {})] -> [e]
+          found' -> found' <> along
   _ -> []
   where
     found = intrusionsOfMove machined
     -- If no other statement has a contour, the cuts of statement @n@ need no check.
     isAlone n = all (== n) (Wall.statements machined)
+
+-- | The common cause of the errors of the linking moves of a pass, if it is known, otherwise these
+-- errors. @isClear@ is true of moves that cut nothing that they should not.
+diagnosed :: ([Move] -> Bool) -> Block -> [Error] -> [Error]
+diagnosed isClear b errors = case b of
+  Cutting {job = Located _ milling, approach, cut, retract, sent = Nothing}
+    | Right (Just side') <- leadingSide milling,
+      first : more <- [(e, -depth err) | err@(CutsPart _ _ e _ _ _ _) <- errors],
+      (element, deepest) <- maximumBy (comparing snd) (first :| more),
+      Just fault <-
+        LinkingMoveError.diagnosis
+          milling
+          side'
+          (CheckedMoves approach cut retract isClear)
+          (element, Mm deepest) ->
+      [WrongLink fault]
+  _ -> errors
 
 -- | The error of a cut along a contour: it names the element along which the cutter moves, instead
 -- of the move. @word@ is the region of the statement's first word.

@@ -19,7 +19,7 @@ import Toolpath.Toolpath (Manner (Manner), Move (Move))
 
 -- | The lead-in or the lead-out.
 data Which = In | Out
-  deriving stock (Eq)
+  deriving stock (Eq, Show)
 
 -- | The lead-in at the start of a path, or the lead-out at its end; empty if the program asks for
 -- none. It is a straight line in the direction of the path, or a quarter of a circle that curves

@@ -89,6 +89,9 @@ examine set isFirst onPass pass =
     missed = if null cutting then [] else missedBy cutting
     -- A pass without motions cuts at most what the cutter touches at its start.
     isNeverCut = null cutting && any isTooMuch (missedBy [Motion.ofNoLength (entry job) level])
+    -- The cutter is nowhere near an element: the deviation of other motions there says nothing.
+    isLeftOut = isMissing found && tool > Mm 0 && any ((> plus tool tool) . Proof.amount) tooMuch
+    tool = Part.radius (milling job)
     largest = Proof.deepest (missed <> strayed)
     isTooMuch w = Proof.amount w > allowedExcess
     tooMuch
@@ -107,9 +110,9 @@ examine set isFirst onPass pass =
         }
     findings =
       gougeFindings allowedGouge gouges deepest
-        <> excessFindings allowedExcess tooMuch largest
+        <> (if isLeftOut then [] else excessFindings allowedExcess tooMuch largest)
         <> maybeToList (wrongSide scan)
-        <> [Proof.NeverBegun (statement job) | isNeverCut]
+        <> [neverBegun pass | isNeverCut || isLeftOut]
 
 -- | Finding for the @gouges@ that are deeper than @allowed@; empty if there are none. The finding
 -- names the first such gouge of the list, and @deepest@.
@@ -126,6 +129,13 @@ gougeFindings allowed gouges deepest =
 excessFindings :: Mm -> [Witness] -> Maybe Witness -> [Finding]
 excessFindings allowed tooMuch largest =
   [Excess first (fromMaybe first largest) allowed | first : _ <- [tooMuch]]
+
+-- | Test that the motions of a pass are not on the tape.
+isMissing :: FoundPass -> Bool
+isMissing found = case found of
+  Complete _ _ -> False
+  Incomplete _ _ -> False
+  Missing -> True
 
 -- | Motions along the contour, without the motion that arrives at the start of the contour.
 motionsAlong :: FoundPass -> [CutterMotion]
@@ -162,12 +172,12 @@ allowedDeviation isCurved milling
 -- well. This is not necessary if the tape has exactly the planned frames, those that the compiler
 -- made, and they follow the whole contour.
 orderFindings :: MotionSet -> MillingPass -> [Finding]
-orderFindings set MillingPass {job, found} = case found of
+orderFindings set pass@MillingPass {job, found} = case found of
   Complete _ along -> if MotionSet.isPlanned set then [] else backward along
   Incomplete _ along
     | isUnfollowed job found -> [NotFollowed (statement job)]
     | otherwise -> backward along
-  Missing -> [Proof.NeverBegun (statement job)]
+  Missing -> [neverBegun pass]
   where
     backward along =
       [ NotFollowed (statement job)
@@ -179,6 +189,10 @@ orderFindings set MillingPass {job, found} = case found of
       WrongSide.repeats job index m
         || Part.corners (milling job) == Part.Sharp && WrongSide.strays job m
     runsBack = WrongSide.runsBack (MotionSet.machine set) job
+
+-- | Finding that the tape never reaches the start of a pass.
+neverBegun :: MillingPass -> Finding
+neverBegun MillingPass {job, level} = Proof.NeverBegun (statement job) (entry job) level
 
 -- | Test that a cut does not follow the contour to its end, as it would have to. If rest material
 -- is allowed, a cut need not go along the whole contour.

@@ -13,6 +13,7 @@ module Verify.Proof
     Refusal (..),
     isProven,
     toReports,
+    frameOf,
   )
 where
 
@@ -103,8 +104,9 @@ data Finding
     Excess Witness Witness Mm
   | -- | The cutter runs along an element on its wrong side: the frame, the element.
     WrongSide Int Region
-  | -- | The tape never reaches the start of a contour: the statement.
-    NeverBegun Region
+  | -- | The tape never reaches the start of a contour: the statement, the position and the height
+    -- at which the cutter's centre should begin; the top of the part is 0.
+    NeverBegun Region Point Mm
   | -- | The tape does not follow a contour from its start to its end: the statement.
     NotFollowed Region
   | -- | The tape leaves material on the floor of a pocket: the statement, the height, a position
@@ -148,7 +150,7 @@ tapeOrder finding = case finding of
   Gouge w _ _ -> (frame w, 0)
   Excess w _ _ -> (frame w, 1)
   WrongSide n _ -> (n, 2)
-  NeverBegun _ -> (0, 3)
+  NeverBegun {} -> (0, 3)
   NotFollowed _ -> (0, 3)
   NotCleared {} -> (0, 3)
   NotInOrder _ -> (0, 3)
@@ -209,16 +211,16 @@ data Refusal
 isProven :: Proof -> Bool
 isProven = null . findings
 
--- | Reports of all findings. Each report names the first frame that differs from the planned one,
--- if there is one.
+-- | Reports of all findings, in their order.
 toReports :: Machine -> Proof -> [Report]
-toReports machine proof = map (withDifference . toReport machine) (findings proof)
-  where
-    withDifference r = r {message = message r <> difference}
-    difference = case firstDifference proof of
-      Just n ->
-        ["The first frame that differs from this program's own is frame " <> Decimal.whole n <> "."]
-      Nothing -> []
+toReports machine proof = map (toReport machine) (findings proof)
+
+-- | Number, from 1, of the frame that a finding is about. Nothing if it is about a frame that is
+-- missing.
+frameOf :: Finding -> Maybe Int
+frameOf finding = case tapeOrder finding of
+  (n, _) | n > 0 && n < maxBound -> Just n
+  _ -> Nothing
 
 toReport :: Machine -> Finding -> Report
 toReport machine finding = case finding of
@@ -268,8 +270,15 @@ toReport machine finding = case finding of
       }
   WrongSide n region ->
     wrong "E0703" (InSource region) (frameWord n <> " runs along this element on its wrong side")
-  NeverBegun region ->
-    wrong "E0704" (InSource region) "the tape never reaches the beginning of this contour"
+  NeverBegun region p height ->
+    wrong
+      "E0704"
+      (InSource region)
+      ( "the cutter never comes to "
+          <> Vec.toText 3 p
+          <> (if height == Mm 0 then "" else " at the height " <> Decimal.mm height)
+          <> ", where this contour begins"
+      )
   NotFollowed region ->
     wrong
       "E0709"

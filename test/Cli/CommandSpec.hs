@@ -245,9 +245,6 @@ spec = do
         (bad, table', err) <- partc ["verify", "examples/flange.part", folder </> "bad.tape"]
         bad `shouldBe` ExitFailure 3
         table' `shouldSatisfy` isInfixOf "WRONG"
-        err
-          `shouldSatisfy` isInfixOf
-            "The first frame that differs from this program's own is frame 50."
         err `shouldSatisfy` isInfixOf "Row 814 (frame 50) has the holes 01111"
         err `shouldSatisfy` isInfixOf "All other rows are the same."
     it "names the machine that reads the tape of another one" $
@@ -257,7 +254,23 @@ spec = do
         made `shouldBe` ExitSuccess
         (code, _, err) <- partc ["verify", "examples/flange.part", tape]
         code `shouldBe` ExitFailure 1
-        err `shouldSatisfy` isInfixOf "n55 reads this tape: write -t n55."
+        err `shouldSatisfy` isInfixOf "this is a tape of n55, and lkp-01f cannot read it"
+        err `shouldSatisfy` isInfixOf "hint: Write -t n55."
+    it "points to the changed line of G-code" $
+      inFolder $ \folder -> do
+        let tape = folder </> "stub.ngc"
+        (made, _, _) <- partc ["compile", "examples/flange.part", "-t", "iso6983", "-o", tape]
+        made `shouldBe` ExitSuccess
+        own <- lines <$> readFile tape
+        let (front, back) = break ("G1 " `isPrefixOf`) own
+        writeFile
+          (folder </> "bad.ngc")
+          (unlines (front <> map (<> "9") (take 1 back) <> drop 1 back))
+        (code, _, err) <-
+          partc
+            (words "verify examples/flange.part -t iso6983 --format short" <> [folder </> "bad.ngc"])
+        code `shouldSatisfy` (/= ExitSuccess)
+        err `shouldSatisfy` isInfixOf ("bad.ngc:" <> show (length front + 1) <> ":")
     it "reports a damaged tape with its row" $
       inFolder $ \folder -> do
         let Tape rows = Flange.tape

@@ -196,7 +196,7 @@ isLost f = case f of
   _ -> isNeverBegun f
 -- A contour that is never begun has no excess.
 isNeverBegun f = case f of
-  NeverBegun _ -> True
+  NeverBegun {} -> True
   _ -> False
 
 findings :: Toolpath -> FrameProgram -> [Frame] -> [Finding]
