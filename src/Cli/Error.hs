@@ -86,13 +86,15 @@ toReport err = case err of
   NoMachineForTape known ->
     (wrong "E0804" InFile "no machine is chosen")
       { hints =
-          [ "Say on the command line whose tape this is: -t NAME. Machines: "
+          [ "Name the machine of this tape on the command line: -t NAME. The machines are: "
               <> Text.intercalate ", " known
               <> "."
           ]
       }
   OverwritesProgram path ->
-    wrong "E0807" InFile ("the output would replace " <> path <> ", of which it is made")
+    (wrong "E0807" InFile ("the output would replace " <> path <> ", from which it is made"))
+      { hints = ["Give the output another name: -o FILE."]
+      }
   OneForSeveral place ->
     ( wrong
         "E0811"
@@ -142,7 +144,7 @@ toReport err = case err of
     ( wrong
         "E0816"
         InFile
-        ("the feed cannot be corrected to " <> Decimal.whole n <> " percent")
+        ("the control cannot run the feeds at " <> Decimal.whole n <> " percent")
     )
       { hints =
           [ if null positions
@@ -154,7 +156,11 @@ toReport err = case err of
           ]
       }
   NoSuchSwitch n count ->
-    (wrong "E0816" InFile ("the control has no switch " <> Decimal.whole n <> " for a radius"))
+    ( wrong
+        "E0816"
+        InFile
+        ("the control has no switch " <> Decimal.whole n <> " for the radius of a cutter")
+    )
       { hints =
           [ if count == 0
               then "The machine's control has no such switches; leave --switch out."
@@ -171,9 +177,9 @@ toReport err = case err of
         InFile
         ( "frame "
             <> Decimal.whole n
-            <> " asks "
+            <> " asks for "
             <> feedText asked
-            <> ", too fast for the controller"
+            <> ", which is too fast for the controller"
         )
     )
       { hints =

@@ -86,14 +86,12 @@ wordsOf err = case err of
           <> "."
       ]
     )
-  ArcEntry n -> (n, "switches compensation on in an arc", ["That takes a straight move."])
-  ArcExit n -> (n, "leaves compensation in an arc", ["That takes a straight move."])
+  ArcEntry n -> (n, "switches compensation on in an arc", straightOnly)
+  ArcExit n -> (n, "switches compensation off in an arc", straightOnly)
   TightArc n old r ->
     ( n,
-      "is an arc of radius "
-        <> lengthOf old
-        <> " about whose inside the cutter has no room to roll",
-      ["Its radius is " <> lengthOf r <> "."]
+      "is a concave arc of radius " <> lengthOf old <> ", into which the cutter does not fit",
+      ["The radius of the cutter is " <> lengthOf r <> "."]
     )
   CornerNotReached n ->
     ( n,
@@ -104,4 +102,5 @@ wordsOf err = case err of
   ToolChanged n -> (n, "changes the tool while compensation is on", [])
   NotSwitchedOff n -> (n, "ends the tape while compensation is on", [])
   where
+    straightOnly = ["A control does this in a straight move only."]
     lengthOf (Mm x) = Decimal.fixed 3 x <> " mm"

@@ -100,7 +100,7 @@ toReport machine err = case err of
         fixes =
           [ if asked > highest
               then feedFix "Write its largest feed" region (roundedTo floor highest)
-              else feedFix "Write its least feed" region (roundedTo ceiling lowest)
+              else feedFix "Write its lowest feed" region (roundedTo ceiling lowest)
           ]
       }
   FrequencyOutOfRange region asked needed (low, lowFeed) (high, highFeed) ->
@@ -108,23 +108,27 @@ toReport machine err = case err of
         Report.Error
         "E0501"
         (InSource region)
-        (machineName machine <> " cannot run " <> feed asked <> " here")
+        (machineName machine <> " cannot run a feed of " <> feed asked <> " in this move")
     )
       { message =
-          [ "The axis that leads would take "
+          [ "The leading axis of this move would need "
               <> Decimal.short 2 needed
-              <> " pulses a second; there are "
+              <> " pulses a second, and the machine makes "
               <> Decimal.short 2 low
               <> " to "
               <> Decimal.short 2 high
               <> ".",
-            "Along an axis that is " <> feed lowFeed <> " to " <> feed highFeed <> "."
+            "In a move along one axis these are feeds from "
+              <> feed lowFeed
+              <> " to "
+              <> feed highFeed
+              <> "."
           ],
         -- The frequency is in proportion to the feed.
         fixes =
           [ if needed > high
               then feedFix "Write the largest feed for this move" region (limited floor high)
-              else feedFix "Write the least feed for this move" region (limited ceiling low)
+              else feedFix "Write the lowest feed for this move" region (limited ceiling low)
           ]
       }
     where
@@ -154,8 +158,8 @@ toReport machine err = case err of
       { message =
           [ "The tolerance and one pulse ("
               <> Decimal.mm (Machine.planeResolution machine)
-              <> ") have to stay below the cutter's radius: a cutter that may be off by its own \
-                 \size proves nothing."
+              <> ") together have to be less than the radius of the cutter. Otherwise the proof \
+                 \could not tell a good part from a bad one."
           ],
         others = [Label written "the tolerance is written here"],
         fixes =
@@ -191,7 +195,7 @@ toReport machine err = case err of
         Report.Error
         "E0506"
         (InSource region)
-        ("more than " <> Decimal.whole limit <> " contours")
+        ("the program machines more than " <> Decimal.whole limit <> " contours")
     )
       { message =
           [ "A program for "
@@ -201,7 +205,7 @@ toReport machine err = case err of
               <> " contours."
           ],
         controlStop = Just "10746",
-        hints = ["Make two programs of it."]
+        hints = ["Make two programs, the second of which begins where the first one ends."]
       }
   NoSuchAxis region axis ->
     ( report
@@ -211,22 +215,29 @@ toReport machine err = case err of
         (machineName machine <> " has no axis " <> axisName axis)
     )
       { message = ["The cutter would move in " <> axisName axis <> " here."],
-        hints = ["Leave the depth or the third coordinate out, or compile for another machine."]
+        hints =
+          [ "Leave the depth or the third coordinate out and set the height by hand, or compile \
+            \for a machine that has this axis."
+          ]
       }
   PositionOutOfField region axis position limit ->
     ( report
         Report.Error
         "E0508"
         (InSource region)
-        ( axisName axis
+        ( "a frame of "
+            <> machineName machine
+            <> " cannot hold the position "
+            <> axisName axis
             <> " = "
             <> Decimal.mm position
-            <> " does not fit the field of "
-            <> machineName machine
         )
     )
       { message = ["It holds positions up to " <> Decimal.mm limit <> "."],
-        hints = ["Check the units and the decimal points of the numbers."]
+        hints =
+          [ "Check the units and the decimal points of the numbers, or put the zero nearer to \
+            \the part."
+          ]
       }
   NoCompensation region ->
     ( report
@@ -235,7 +246,7 @@ toReport machine err = case err of
         (InSource region)
         (machineName machine <> " has no cutter compensation")
     )
-      { message = ["Its tape has no word for it."],
+      { message = ["The frames of its tape have no word for it."],
         fixes = [ErrorFix.compensationFix region]
       }
   DiameterOutOfRange region diameter ->
@@ -243,12 +254,16 @@ toReport machine err = case err of
         Report.Error
         "E0509"
         (InSource region)
-        (machineName machine <> " cannot be told a cutter of diameter " <> Decimal.mm diameter)
+        ( "the tape of "
+            <> machineName machine
+            <> " cannot hold a cutter diameter of "
+            <> Decimal.mm diameter
+        )
     )
       { message =
-          [ "The number does not fit the word, or the word holds it to more than a pulse ("
+          [ "The number has more digits than its word, or the word does not hold it to one pulse, "
               <> Decimal.mm (Machine.planeResolution machine)
-              <> ") only."
+              <> "."
           ],
         fixes = [ErrorFix.compensationFix region]
       }
@@ -260,8 +275,8 @@ toReport machine err = case err of
         ("the tape would have more than " <> Decimal.whole limit <> " frames")
     )
       { hints =
-          [ "Look for a coordinate in a wrong unit or a loop that runs too often; allow a \
-            \larger tolerance; or make several programs of it."
+          [ "Look for a coordinate in a wrong unit, or for a loop that runs too often.",
+            "Or allow a larger tolerance, or make several programs of it."
           ]
       }
 
@@ -312,11 +327,15 @@ warningReport machine warning = case warning of
         Report.Warning
         "W0503"
         (InSource region)
-        ("the source of " <> machineName machine <> " tells of no moves in z")
+        (machineName machine <> " is not known to move in z")
     )
       { message =
-          [ "Its frame has a field for z, and the tape holds the moves there; whether the \
-            \machine at hand follows them is for you to know."
+          [ "The document that describes it mentions moves in x and y only. The tape holds the \
+            \moves in z, but the machine may ignore them."
+          ],
+        hints =
+          [ "Run the tape without a part first. If nothing moves in z, set the height by hand, and \
+            \leave the depths and the third coordinates out."
           ]
       }
   ManualCommand region kind ->
@@ -324,10 +343,10 @@ warningReport machine warning = case warning of
         Report.Warning
         "W0504"
         (InSource region)
-        (machineName machine <> " cannot be told " <> subjectOf kind <> " by its tape")
+        ("the tape of " <> machineName machine <> " cannot hold " <> subjectOf kind)
     )
       { message =
-          [ "It has to be done by hand here."
+          [ "The operator has to do it by hand here."
               <> ( if kind == ToolCommand
                      then
                        " The tape does not wait for it: stop the machine, or give the next tool \
@@ -336,7 +355,7 @@ warningReport machine warning = case warning of
                  )
           ],
         hints =
-          [ "A free auxiliary command may serve: aux 1"
+          [ "If the machine is wired for it, write an auxiliary command: aux 1"
             | kind /= ToolCommand,
               not (null (Machine.auxiliary (Machine.commandWords machine)))
           ]
@@ -351,7 +370,7 @@ warningReport machine warning = case warning of
       { message =
           [ "The program asks for "
               <> turns asked
-              <> "; the machine can be told no speed nearer to it."
+              <> ", and the machine has no speed nearer to it."
           ],
         hints = ["Write " <> Decimal.short 1 given <> " rpm, if this speed is meant."]
       }
@@ -360,9 +379,9 @@ warningReport machine warning = case warning of
         Report.Warning
         "W0506"
         (InSource region)
-        (machineName machine <> " starts its spindle by a speed, and this statement gives none")
+        ("‘spindle’ needs a speed on " <> machineName machine)
     )
-      { message = ["The tape has no command for the spindle here."],
+      { message = ["So the tape does not start the spindle here."],
         hints = ["Write the speed, for example: spindle cw 800 rpm"]
       }
   ReaderTooSlow region n count ->
@@ -370,7 +389,7 @@ warningReport machine warning = case warning of
         Report.Warning
         "W0507"
         (InSource region)
-        (machineName machine <> " stands still within a cut: a frame is read late")
+        (machineName machine <> " stands still within a cut, because a frame is read late")
     )
       { message =
           [ "The frame before frame "
@@ -386,25 +405,25 @@ warningReport machine warning = case warning of
                   <> " such frames. The cutter may leave a mark at each."
           ],
         hints =
-          [ "Longer frames help: allow a larger tolerance"
+          [ "Allow a larger tolerance, which makes the frames longer"
               <> ( if Machine.arcs machine == Machine.NoArcs
-                     then ", or take a machine with arcs."
+                     then ", or compile for a machine with arcs."
                      else "."
                  )
           ]
       }
   where
     subjectOf kind = case kind of
-      SpindleCommand -> "about the spindle"
-      CoolantCommand -> "about the coolant"
-      ToolCommand -> "to change its tool"
+      SpindleCommand -> "a command for the spindle"
+      CoolantCommand -> "a command for the coolant"
+      ToolCommand -> "a change of the tool"
       AuxiliaryCommand -> "this command"
     reason =
       case (Machine.feedMeasure (Machine.feeds machine), Machine.rule (Machine.feeds machine)) of
         (Machine.AlongPath, Machine.NotAbove) ->
-          "the machine has no feed nearer to it that does not exceed it"
-        (Machine.AlongPath, Machine.Nearest) -> "the machine has no feed nearer to it"
-        (Machine.LeadingAxis, _) -> "the machine's feeds are steps along the axis that leads"
+          "the machine runs the largest of its feeds that is not above it"
+        (Machine.AlongPath, Machine.Nearest) -> "the machine runs the nearest of its feeds"
+        (Machine.LeadingAxis, _) -> "the feeds of this machine are steps along the leading axis"
     turns n = Decimal.short 1 n <> " turns a minute"
 
 -- | Fix that writes another feed.

@@ -95,8 +95,8 @@ reportWith option err = case err of
         ("the machine’s description ‘" <> file <> "’ cannot be read: " <> why)
     )
       { hints =
-          [ "A description is looked for beside the program that names it, or where the \
-            \command line says."
+          [ "A description is looked for in the folder of the program that names it, or in the \
+            \folder that the command line gives."
           ]
       }
   DescriptionWrong place file text reports ->
@@ -111,8 +111,7 @@ reportWith option err = case err of
   NothingToPunch ->
     (wrong "E0808" InFile "the program moves nothing, so there is no tape to punch")
       { hints =
-          [ "Mill a contour (mill NAME outside { approach … retract … }), or go somewhere \
-            \(rapid, move)."
+          [ "Write a statement that moves the cutter: mill, pocket, turn, drill, rapid or move."
           ]
       }
   where

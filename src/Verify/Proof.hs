@@ -234,9 +234,9 @@ toReport machine finding = case finding of
         message =
           [ "The cutter's centre is then at "
               <> Vec.toText 3 (location first)
-              <> ". Allowed is a gouge of "
+              <> ". A gouge of up to "
               <> micro allowed
-              <> ", the tolerance and one pulse."
+              <> " is allowed: the tolerance and one pulse."
           ]
             <> [ "The deepest gouge is "
                    <> micro (amount worst)
@@ -250,17 +250,17 @@ toReport machine finding = case finding of
     ( wrong
         "E0702"
         (InSource (element w))
-        (frameWord (frame w) <> " leaves " <> micro (amount w) <> " of material standing")
+        (frameWord (frame w) <> " leaves " <> micro (amount w) <> " of material on the part")
     )
       { label = "at this element",
         message =
-          [ "It is worst at "
+          [ "The most is left at "
               <> Vec.toText 3 (location w)
-              <> ". Allowed is an excess of "
+              <> ". Up to "
               <> micro allowed
-              <> ", the tolerance and one pulse."
+              <> " is allowed: the tolerance and one pulse."
           ]
-            <> [ "The most that is left is "
+            <> [ "The most that any frame leaves is "
                    <> micro (amount worst)
                    <> ", in frame "
                    <> Decimal.whole (frame worst)
@@ -269,7 +269,7 @@ toReport machine finding = case finding of
                ]
       }
   WrongSide n region ->
-    wrong "E0703" (InSource region) (frameWord n <> " runs along this element on its wrong side")
+    wrong "E0703" (InSource region) (frameWord n <> " runs along this element on the wrong side")
   NeverBegun region p height ->
     wrong
       "E0704"
@@ -291,14 +291,14 @@ toReport machine finding = case finding of
         ("the tape does not clear the floor of this pocket at " <> Vec.toText 3 p)
     )
       { label = "at the height " <> Decimal.mm z,
-        message = ["The cutter can stand there, and no frame comes within its radius."]
+        message = ["The cutter has room there, but no frame brings it near enough to this point."]
       }
   NotInOrder region ->
     wrong
       "E0715"
       (InSource region)
       "the tape does not clear the depths of this pocket in their order"
-  OffPlane n -> wrong "E0705" InFile (frameWord n <> " leaves the plane of the part (it moves z)")
+  OffPlane n -> wrong "E0705" InFile (frameWord n <> " moves z, but the program does not")
   TurnsAxis n axis ->
     (wrong "E0718" InFile (frameWord n <> " turns the rotary axis " <> rotaryWord axis))
       { message =
@@ -315,7 +315,7 @@ toReport machine finding = case finding of
     ( wrong
         "E0711"
         InFile
-        (frameWord n <> " goes into the material where the program does not, or deeper")
+        (frameWord n <> " cuts where the program does not, or deeper than the program")
     )
       { message = ["The cutter's centre is then at " <> Vec.toText 3 p <> "."]
       }
@@ -323,7 +323,7 @@ toReport machine finding = case finding of
     ( wrong
         "E0716"
         InFile
-        (frameWord n <> " is none of the moves that the program asks for at this point of the tape")
+        (frameWord n <> " makes a move that the program does not ask for at this point")
     )
       { message = ["It moves the cutter's centre to " <> Vec.toText 3 p <> "."]
       }
@@ -338,7 +338,7 @@ toReport machine finding = case finding of
         (InSource region)
         (frameWord n <> " runs at a wrong feed: " <> speed machine found)
     )
-      { message = ["Here belongs " <> speed machine wanted <> "."]
+      { message = ["The program asks for " <> speed machine wanted <> " there."]
       }
   WrongCommand n (CommandName name) found wanted ->
     ( wrong
@@ -369,7 +369,8 @@ toReport machine finding = case finding of
         (frameWord n <> " is too fast at its end: " <> Decimal.short 2 is <> " mm/min")
     )
       { message =
-          [ "To come down to the feeds that follow, or to the end of the tape, it may have "
+          [ "To slow down in time for the frames that follow, or for the end of the tape, it may \
+            \have at most "
               <> Decimal.short 2 may
               <> " mm/min there."
           ]
@@ -378,7 +379,7 @@ toReport machine finding = case finding of
     wrong
       "E0707"
       InFile
-      ( "the tape does not end where it should: it misses by "
+      ( "the tape does not end where the program does: it is off by "
           <> Text.intercalate
             ", "
             [pulses d <> " in " <> axis | (axis, d) <- [("x", x), ("y", y), ("z", z)], d /= 0]
@@ -408,8 +409,8 @@ refusalWords refusal = case refusal of
     Frame.NoSuchMotion n ->
       ( n,
         "asks for a motion that the machine does not have",
-        [ "That is an arc where there are none, or one that rises or leaves its quadrant or is a \
-          \full circle where it must not, or a motion that goes nowhere."
+        [ "It is an arc, but the machine has none or none of this kind (one that rises, crosses a \
+          \quadrant or is a full circle), or a motion that goes nowhere."
         ]
       )
     Frame.UnknownCommand n (CommandName o) ->

@@ -124,18 +124,23 @@ toReport machine finding = case finding of
     driveReport fault limit =
       (wrong "E0722" (fault <> ", too much for its drive"))
         { message = ["The description of the machine allows " <> hz limit <> "."],
-          hints = ["Ask a lower feed there, or turn the corner by an arc."]
+          hints = ["Write a lower feed there, or round the corner by an arc."]
         }
 
 offReport :: Machine -> PulseWitness -> PulseWitness -> Report
 offReport machine first worst =
   ( wrong
       "E0719"
-      ("the pulses of " <> frameWord (frame first) <> " leave its motion by " <> off first)
+      ( "the pulses of "
+          <> frameWord (frame first)
+          <> " are up to "
+          <> off first
+          <> " away from its motion"
+      )
   )
     { message =
-        ["The interpolator of " <> machineName <> " promises " <> pulses (promised first) <> "."]
-          <> [ "The pulses of " <> frameWord (frame worst) <> " leave it by " <> off worst <> "."
+        ["The interpolator of " <> machineName <> " allows " <> pulses (promised first) <> "."]
+          <> [ "It is worst in " <> frameWord (frame worst) <> ": " <> off worst <> "."
                | frame worst /= frame first
              ]
     }
@@ -155,14 +160,14 @@ feedReport first worst =
       )
   )
     { message =
-        ["The frame asks " <> feed (wanted first) <> "."]
+        ["The frame asks for " <> feed (wanted first) <> "."]
           <> [ "It is worst in "
                  <> frameWord (feedFrame worst)
                  <> ": "
                  <> feed (measured worst)
-                 <> " where "
+                 <> " instead of "
                  <> feed (wanted worst)
-                 <> " is asked."
+                 <> "."
                | feedFrame worst /= feedFrame first
              ]
     }
@@ -174,9 +179,9 @@ stopReport why = case why of
   TooFast n asked most ->
     (wrong "E0721" ("the controller stops before " <> frameWord n <> ": its feed is too high"))
       { message =
-          [ "It asks "
+          [ "It asks for "
               <> feedText asked
-              <> "; the controller can run "
+              <> "; the controller can run at most "
               <> feedText (roundedDown most)
               <> " there."
           ]

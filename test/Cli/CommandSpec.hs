@@ -296,7 +296,7 @@ spec = do
         refused `shouldBe` ExitFailure 1
         err''
           `shouldSatisfy` isInfixOf
-            "error[E0602]: frame 2 asks 60 mm/min, too fast for the controller"
+            "error[E0602]: frame 2 asks for 60 mm/min, which is too fast for the controller"
         err'' `shouldSatisfy` isInfixOf "The largest feed that it can run there is 47.87 mm/min."
         (none, _, err') <- partc ["verify", "examples/flange.part", "-t", "iso6983", "--pulses"]
         none `shouldBe` ExitFailure 1

@@ -20,7 +20,7 @@ spec = do
   it "lists all codes with their titles when none is named" $ do
     (code, out, err) <- partc ["explain"]
     (code, err) `shouldBe` (ExitSuccess, "")
-    lines out `shouldContain` ["E0101  Another word or sign is expected here"]
+    lines out `shouldContain` ["E0101  A word or sign is in a place where it is not allowed"]
     length (lines out) `shouldSatisfy` (> 80)
   it "refuses an unknown code, and suggests similar ones" $ do
     (code, out, err) <- partc ["explain", "E0250"]
