@@ -268,7 +268,9 @@ spec = do
           (unlines (front <> map (<> "9") (take 1 back) <> drop 1 back))
         (code, _, err) <-
           partc
-            (words "verify examples/flange.part -t iso6983 --format short" <> [folder </> "bad.ngc"])
+            ( ["verify", "examples/flange.part", folder </> "bad.ngc"]
+                <> words "-t iso6983 --format short"
+            )
         code `shouldSatisfy` (/= ExitSuccess)
         err `shouldSatisfy` isInfixOf ("bad.ngc:" <> show (length front + 1) <> ":")
     it "reports a damaged tape with its row" $
