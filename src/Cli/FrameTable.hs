@@ -237,7 +237,7 @@ roleWord r = case r of
   Cutting _ -> "cut"
   Retracting _ -> "retract"
   Linking -> "travel"
-  Drilling -> "drill"
+  Drilling _ -> "drill"
   Commanding -> "command"
 
 speedWord :: Frame -> Text

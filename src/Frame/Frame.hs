@@ -131,8 +131,8 @@ data PlannedFrame = PlannedFrame
   deriving stock (Eq, Show)
 
 -- | Purpose of a frame. The first three purposes have the number of the pass along a contour or in
--- a pocket, from 0.
-data Role = Approaching Int | Cutting Int | Retracting Int | Linking | Drilling | Commanding
+-- a pocket, from 0. Drilling has the number of its block in the toolpath, from 0.
+data Role = Approaching Int | Cutting Int | Retracting Int | Linking | Drilling Int | Commanding
   deriving stock (Eq, Show)
 
 -- | Number of the pass to which a frame belongs, from 0; Nothing for frames outside of passes.
@@ -142,7 +142,7 @@ passNumber role = case role of
   Cutting n -> Just n
   Retracting n -> Just n
   Linking -> Nothing
-  Drilling -> Nothing
+  Drilling _ -> Nothing
   Commanding -> Nothing
 
 -- | All frames of a tape, and the position of the cutter before the first one, in pulses from the

@@ -14,7 +14,7 @@ where
 
 import Base.Quantity (Feed, Mm (..), minus)
 import Base.Region (Located (..), Region)
-import Data.List (mapAccumL)
+import Data.List (mapAccumL, zipWith4)
 import Data.List.NonEmpty (NonEmpty (..))
 import Data.List.NonEmpty qualified as NonEmpty
 import Data.Maybe (fromMaybe)
@@ -62,8 +62,9 @@ data FeedMode
 instructions :: Machine -> Toolpath -> [Instruction]
 instructions machine path =
   concat
-    ( zipWith3
+    ( zipWith4
         (ofBlock machine)
+        [0 ..]
         (Toolpath.passNumbers blocks)
         (wallsOf blocks)
         blocks
@@ -86,11 +87,12 @@ wallsOf = snd . mapAccumL next (-1, Passage.walls [])
           | otherwise = let new = Passage.walls contours in ((Toolpath.number pass, new), new)
 
 -- | Instructions for the block @b@, which has the moves of one statement or of one of its passes.
--- The number of its pass is @n@, from 0. @walls@ are the walls beside the pass.
-ofBlock :: Machine -> Int -> Walls -> Block -> [Instruction]
-ofBlock machine n walls b = case b of
+-- The number of the block is @blockNumber@, and that of its pass is @n@, both from 0. @walls@ are
+-- the walls beside the pass.
+ofBlock :: Machine -> Int -> Int -> Walls -> Block -> [Instruction]
+ofBlock machine blockNumber n walls b = case b of
   Toolpath.Travelling radius _ ms -> straightRuns Linking radius ms
-  Toolpath.Holing (Located _ d) ms -> straightRuns Drilling (Part.drillRadius d) ms
+  Toolpath.Holing (Located _ d) ms -> straightRuns (Drilling blockNumber) (Part.drillRadius d) ms
   Toolpath.Commanding c -> [Words (region c) (Command.translated machine c)]
   Toolpath.Cutting
     { Toolpath.job = Located region' job,

@@ -13,12 +13,14 @@ import Base.Region (Region)
 import Base.Region qualified as Region
 import Data.Aeson (Value (..), object, toJSON, withObject, (.:), (.:?), (.=))
 import Data.Aeson.Key qualified as Key
-import Data.Containers.ListUtils (nubOrd)
+import Data.Maybe (fromMaybe)
+import Data.Text (Text)
 import Data.Text qualified as Text
 import Lsp.Capability (Client (..))
 import Lsp.Document (Document (..))
 import Lsp.Location qualified as Location
 import Lsp.ManualLink qualified as ManualLink
+import Lsp.Position (LspRange)
 import Lsp.Position qualified as Position
 import Lsp.Subject
   ( Method,
@@ -29,8 +31,8 @@ import Lsp.Subject
     offsetIn,
     rangeOf,
     source,
-    textEdit,
   )
+import Lsp.Subject qualified as Subject
 import Lsp.Uri (Uri (..))
 import Lsp.Uri qualified as Uri
 import Query.Description (Description (..))
@@ -39,6 +41,14 @@ import Query.Name qualified as Name
 import Query.Reference (References (places))
 import Query.Reference qualified as Reference
 import Query.Rename qualified as Rename
+import Query.SharedFile
+  ( FileMentions (..),
+    FilePlace (..),
+    OpenProgram (OpenProgram, present, previous),
+    SharedFile (..),
+  )
+import Query.SharedFile qualified as SharedFile
+import Query.Snapshot qualified as Snapshot
 
 -- | The request @textDocument/hover@.
 hover :: Method
@@ -67,12 +77,35 @@ references _ subject params = do
   at <- offsetIn subject params
   context <- withObject "parameters" (.:? "context") params
   isWanted <- maybe (pure True) (withObject "a context" (.: "includeDeclaration")) context
-  let shown found =
-        [ Location.location (uri (document subject)) (source subject) r
-          | r <- places found,
-            isWanted || Just r /= Reference.definition found
+  let shown all' =
+        [ object ["uri" .= addressOf subject (mentionsIn ms), "range" .= range]
+          | ms <- Reference.mentions all',
+            (r, range) <- rangesOf ms,
+            isWanted || Just (FilePlace (identity (mentionsIn ms)) r) /= Reference.definedAt all'
         ]
-  pure (maybe Null (toJSON . shown) (Reference.references (now subject) (sound subject) at))
+      found = Reference.sharedReferences (openPrograms subject) (now subject) (sound subject) at
+  pure (maybe Null (toJSON . shown) found)
+
+-- | The other open documents as programs.
+openPrograms :: Subject -> [OpenProgram]
+openPrograms subject =
+  [ OpenProgram {present = now o, SharedFile.isAnalysed = Subject.isAnalysed o, previous = sound o}
+    | o <- others subject
+  ]
+
+-- | The address of a file: that of the open document, in the client's spelling, or else one made
+-- from the path of the file.
+addressOf :: Subject -> SharedFile -> Uri
+addressOf subject f = fromMaybe (Uri.fromPath (path f)) (lookup (identity f) opened)
+  where
+    opened = [(ownIdentity (now o), uri (document o)) | o <- subject : others subject]
+    ownIdentity s = Snapshot.identityOf s (Region.mainFile (Snapshot.source s))
+
+-- | The mentions in one file: their regions and their ranges.
+rangesOf :: FileMentions -> [(Region, LspRange)]
+rangesOf FileMentions {mentionsIn, regions} = [(r, Position.range own r) | r <- regions]
+  where
+    own = Region.fromText (path mentionsIn) (content mentionsIn)
 
 -- | The request @textDocument/documentHighlight@: the mentions in the document itself.
 highlights :: Method
@@ -95,27 +128,23 @@ prepareRename _ subject params = do
       pure (object ["range" .= rangeOf subject region, "placeholder" .= name])
 
 -- | The request @textDocument/rename@. It is refused with the reason if the renaming would change
--- the meaning of the program.
+-- the meaning of an open program.
 rename :: Method
 rename _ subject params = do
   at <- offsetIn subject params
   new <- withObject "parameters" (.: "newName") params
-  case Rename.rename (now subject) at new of
+  case Rename.rename (openPrograms subject) (now subject) at new of
     Left why -> fail (Text.unpack why)
-    Right regions ->
+    Right edited ->
       pure
         ( object
             [ "changes"
                 .= object
-                  [ Key.fromText address
-                      .= [textEdit subject r new | r <- regions, fileOf r == file]
-                    | file <- nubOrd (map fileOf regions),
-                      let Uri address = addressOf file
+                  [ Key.fromText address .= map (edit new . snd) (rangesOf ms)
+                    | ms <- edited,
+                      let Uri address = addressOf subject (mentionsIn ms)
                   ]
             ]
         )
   where
-    fileOf = Position.fileOf (source subject)
-    addressOf file
-      | file == Region.mainFile (source subject) = uri (document subject)
-      | otherwise = Uri.fromPath file
+    edit new range = object ["range" .= range, "newText" .= (new :: Text)]

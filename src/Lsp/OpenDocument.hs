@@ -17,6 +17,7 @@ module Lsp.OpenDocument
     isReady,
     reportsFor,
     dependsOn,
+    mayShareFiles,
     hasDependencies,
   )
 where
@@ -25,11 +26,12 @@ import Base.Region qualified as Region
 import Data.Aeson (Value)
 import Data.Maybe qualified as Maybe
 import Data.Text (Text)
+import Data.Text qualified as Text
 import Lsp.Document (Document)
 import Lsp.Document qualified as Document
 import Lsp.Message (Id)
 import Lsp.Request (Need (..))
-import Lsp.Subject (Subject (Subject, now))
+import Lsp.Subject (Subject (Subject, isAnalysed, now))
 import Lsp.Subject qualified as Subject
 import Lsp.Uri qualified as Uri
 import Query.CarriedReport qualified as CarriedReport
@@ -144,24 +146,36 @@ settled now snapshot o =
   where
     idleTime = 500
 
--- | True if the results that a request needs are there.
+-- | True if the results of the document itself that a request needs are there.
 isReady :: Need -> OpenDocument -> Bool
 isReady need o = case need of
   LastSnapshot -> Maybe.isJust (latest o)
   Evaluation -> stage o >= Evaluated
+  SharedEvaluation -> stage o >= Evaluated
   AllPasses -> stage o == Settled
 
--- | The subject of a request. If the present text is not analysed yet, its snapshot is an empty
--- one, and answers come from the last snapshot, with positions moved to the present text.
-subject :: OpenDocument -> Subject
-subject o =
-  Subject {Subject.document = document o, now, Subject.sound = before, Subject.tape = tape o}
+-- | The subject of a request, from the other open documents and the document itself. If the present
+-- text is not analysed yet, its snapshot is an empty one, and answers come from the last snapshot,
+-- with positions moved to the present text.
+subject :: [OpenDocument] -> OpenDocument -> Subject
+subject others o =
+  Subject
+    { Subject.document = document o,
+      now,
+      Subject.sound = before,
+      Subject.tape = tape o,
+      isAnalysed = stage o >= Evaluated,
+      Subject.others = map (subject []) others
+    }
   where
     (now, before) = case latest o of
       Just snapshot | stage o >= Evaluated -> (snapshot, sound o)
       Just snapshot | Snapshot.hasFacts snapshot -> (blank, Just snapshot)
       _ -> (blank, sound o)
-    blank =
+    blank = case latest o of
+      Just snapshot -> empty {Snapshot.identities = Snapshot.identities snapshot}
+      Nothing -> empty
+    empty =
       Snapshot.unanalysed
         (Region.fromText (Uri.toPath (Document.uri (document o))) (Document.program (document o)))
 
@@ -175,6 +189,13 @@ reportsFor o snapshot = case lastSettled o of
 -- | True if the results of a document depend on the file with this path.
 dependsOn :: Text -> OpenDocument -> Bool
 dependsOn path o = any ((path `elem`) . Snapshot.dependencies) (latest o)
+
+-- | True if the text of a document may have an import, or if the results of the document @o@ depend
+-- on it.
+mayShareFiles :: OpenDocument -> OpenDocument -> Bool
+mayShareFiles o other =
+  dependsOn (Uri.toPath (Document.uri (document other))) o
+    || any (Text.isInfixOf "import") (Document.contents (document other))
 
 -- | True if the results of a document depend on other files.
 hasDependencies :: OpenDocument -> Bool

@@ -51,6 +51,8 @@ data Need
     LastSnapshot
   | -- | the evaluation of the present text
     Evaluation
+  | -- | the evaluation of the present text, and of all open documents that may share files with it
+    SharedEvaluation
   | -- | all passes on the present text
     AllPasses
   deriving stock (Eq, Show)
@@ -60,6 +62,7 @@ need :: Text -> Need
 need name
   | name `elem` quick = LastSnapshot
   | name `elem` late = AllPasses
+  | name `elem` shared = SharedEvaluation
   | otherwise = Evaluation
   where
     quick =
@@ -70,6 +73,7 @@ need name
         "textDocument/onTypeFormatting",
         "partc/at"
       ]
+    shared = ["textDocument/references", "textDocument/rename"]
     late = ["textDocument/codeAction", "textDocument/codeLens"]
 
 -- | The function for a method of the protocol that is about all open documents, such as

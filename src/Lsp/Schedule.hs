@@ -12,6 +12,7 @@ module Lsp.Schedule
     abandon,
     refuseWaiting,
     tooLate,
+    isReady,
     answer,
     answered,
     patience,
@@ -59,6 +60,7 @@ patience :: Need -> Int
 patience = \case
   LastSnapshot -> longestWork
   Evaluation -> waitingTime
+  SharedEvaluation -> waitingTime
   AllPasses -> waitingTime
 
 -- | The longest time in ms of an analysis or a proof in the editor. @partc check@ has no such
@@ -85,13 +87,16 @@ advance c now session =
   List.foldl'
     (\(s, effects) next -> let (s', more) = next s in (s', effects <> more))
     (session, [])
-    [refuseLate now, showProgress c now, stopLongWork c now, beginWork c now]
+    [refuseLate c now, showProgress c now, stopLongWork c now, beginWork c now]
 
--- | Refuses the requests that have waited too long.
-refuseLate :: Milliseconds -> Session -> (Session, [Effect])
-refuseLate now session =
+-- | Refuses the requests that have waited too long. If a request has waited only for the results of
+-- other documents, it is answered without them.
+refuseLate :: Client -> Milliseconds -> Session -> (Session, [Effect])
+refuseLate c now session =
   ( session {documents = Map.map patient (documents session)},
-    [ Send (Refusal (identifier w) tooLate)
+    [ if OpenDocument.isReady (Request.need (method w)) o
+        then answer c session o w
+        else Send (Refusal (identifier w) tooLate)
       | o <- Map.elems (documents session),
         w <- reverse (waiting o),
         refusedAt w <= now
@@ -238,14 +243,16 @@ worked c now w outcome session = case Map.lookup there (documents session) of
 -- and the answers to the requests that have waited for the snapshot.
 publish :: Client -> OpenDocument -> Session -> (Session, [Effect], [Effect])
 publish c o session =
-  ( session {documents = Map.insert there o {waiting = others} (documents session)},
+  ( stored {documents = Map.map (\d -> d {waiting = snd (divided d)}) (documents stored)},
     [Send (Diagnostic.publish c (document o) ((\s -> (s, reportsFor o s)) <$> latest o))],
-    [answer c o r | r <- reverse ready]
+    [ answer c stored d r
+      | d <- Map.elems (documents stored),
+        r <- reverse (fst (divided d))
+    ]
   )
   where
-    there = Uri.toPath (Document.uri (document o))
-    (ready, others) = List.partition isReady (waiting o)
-    isReady r = OpenDocument.isReady (Request.need (method r)) o
+    stored = session {documents = Map.insert (pathOf o) o (documents session)}
+    divided d = List.partition (isReady stored d) (waiting d)
 
 -- | Reports a fault of the compiler during some work.
 faulty :: Client -> Text -> CurrentWork -> Session -> (Session, [Effect])
@@ -263,12 +270,38 @@ faulty c why w session = case kind (work w) of
     failure = Failure InternalError (Status.fault why)
     (session', refusals) = refuseWaiting failure (path (work w)) session
 
+-- | The path of a document.
+pathOf :: OpenDocument -> Text
+pathOf = Uri.toPath . Document.uri . document
+
+-- | True if the results that a request about the document @o@ needs are there. Results of another
+-- document are not needed if there will be none, because its analysis was stopped.
+isReady :: Session -> OpenDocument -> WaitingRequest -> Bool
+isReady session o r =
+  OpenDocument.isReady need o && not (need == SharedEvaluation && any isAwaited (others session o))
+  where
+    need = Request.need (method r)
+    isAwaited other =
+      stage other == Unanalysed && isPending other && OpenDocument.mayShareFiles o other
+    isPending other =
+      Maybe.isJust (due other)
+        || pathOf other `elem` queue session
+        || any ((== pathOf other) . path . work) (current session)
+
+-- | The other open programs.
+others :: Session -> OpenDocument -> [OpenDocument]
+others session o =
+  [ other
+    | other <- Map.elems (Map.delete (pathOf o) (documents session)),
+      not (Document.isDescription (document other))
+  ]
+
 -- | The answer to a request about a document.
-answer :: Client -> OpenDocument -> WaitingRequest -> Effect
-answer c o r = Answer (identifier r) $ case Request.method (method r) of
+answer :: Client -> Session -> OpenDocument -> WaitingRequest -> Effect
+answer c session o r = Answer (identifier r) $ case Request.method (method r) of
   Nothing ->
     Refusal (identifier r) (Failure MethodNotFound ("there is no request " <> method r))
-  Just f -> answered (identifier r) (f c (OpenDocument.subject o)) (parameters r)
+  Just f -> answered (identifier r) (f c (OpenDocument.subject (others session o) o)) (parameters r)
 
 -- | The answer that a function gives for the parameters of a request with this identifier. If the
 -- function fails, the request is refused with the reason.

@@ -109,7 +109,7 @@ request now ident name params session = case (phase session, name) of
     )
   (Running _, _)
     | Just ofAll <- Request.workspaceMethod name ->
-      let subjects = map OpenDocument.subject (Map.elems (documents session))
+      let subjects = map (OpenDocument.subject []) (Map.elems (documents session))
        in (session, [Answer ident (Schedule.answered ident (ofAll subjects) params)])
   (Running c, _) -> case (Request.method name, Aeson.parseEither named params) of
     (Nothing, _) -> refuse MethodNotFound ("there is no request " <> name)
@@ -131,8 +131,7 @@ asked :: Milliseconds -> Client -> Text -> WaitingRequest -> Session -> (Session
 asked now c path r session = case Map.lookup path (documents session) of
   Nothing -> (session, [Send (Result (identifier r) Null)])
   Just o
-    | OpenDocument.isReady (Request.need (method r)) o ->
-      (session, [Schedule.answer c o r])
+    | Schedule.isReady session o r -> (session, [Schedule.answer c session o r])
     | otherwise -> (adjusted path waits session, [])
   where
     -- The analysis begins now, because the user waits for the answer.

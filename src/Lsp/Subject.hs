@@ -28,12 +28,15 @@ import Query.TapeFacts (TapeFacts)
 -- snapshot of its last text without errors; nothing if there was none.
 --
 -- If the present text is not analysed yet, @now@ has only this text and @sound@ is the last
--- snapshot. @tape@ has the facts about the tape of the present text; nothing if it is not made yet.
+-- snapshot; @isAnalysed@ is then false. @tape@ has the facts about the tape of the present text;
+-- nothing if it is not made yet. @others@ are the other open documents.
 data Subject = Subject
   { document :: Document,
     now :: Snapshot,
     sound :: Maybe Snapshot,
-    tape :: Maybe TapeFacts
+    tape :: Maybe TapeFacts,
+    isAnalysed :: Bool,
+    others :: ~[Subject]
   }
 
 -- | A function that answers one kind of request. The arguments: the capabilities of the client, the

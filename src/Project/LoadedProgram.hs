@@ -16,6 +16,7 @@ where
 import Base.Region (Located (..), Region, Source)
 import Base.Region qualified as Region
 import Base.Result (Result (..), mapErrors)
+import Data.Containers.ListUtils (nubOrd)
 import Data.Functor.Identity (runIdentity)
 import Data.Text (Text)
 import Data.Text qualified as Text
@@ -45,7 +46,10 @@ data LoadedProgram = LoadedProgram
     -- | the machine descriptions that the program names
     descriptions :: Descriptions,
     -- | the paths of the imports, the table files and the machine descriptions
-    files :: [Text]
+    files :: [Text],
+    -- | the paths of the program, the imports and the table files, each with the identity of the
+    -- file: the same path for all paths that lead to the same file
+    identities :: [(Text, Text)]
   }
 
 -- | Loads a program or an input sheet with the text @text@. Reports name it by @path@. A machine
@@ -60,6 +64,10 @@ load reader path text
       traverse
         (MachineDescription.load (Surface.contents reader) (takeDirectory path))
         (maybe [] describedMachines (output (Surface.surface loaded)))
+    identities <-
+      traverse
+        (\p -> (p,) . Text.pack <$> Surface.identity reader (Text.unpack p))
+        (nubOrd (Text.pack path : map snd (Surface.imports loaded)))
     pure
       LoadedProgram
         { source = Surface.source loaded,
@@ -69,7 +77,8 @@ load reader path text
           descriptions,
           files =
             map snd (Surface.imports loaded)
-              <> [Text.pack (takeDirectory path </> Text.unpack name) | (name, _) <- descriptions]
+              <> [Text.pack (takeDirectory path </> Text.unpack name) | (name, _) <- descriptions],
+          identities
         }
 
 -- | The part program that an input sheet with the text @text@ describes.
@@ -81,7 +90,8 @@ fromInputSheet path text =
       isSheet = True,
       imports = [],
       descriptions = [],
-      files = []
+      files = [],
+      identities = [(Text.pack path, Text.pack path)]
     }
 
 -- | The names of the machine description files that a program names.

@@ -13,7 +13,7 @@ import Data.IntMap.Strict (IntMap)
 import Data.IntMap.Strict qualified as IntMap
 import Data.Map.Strict qualified as Map
 import Data.Text (Text)
-import Frame.Frame (FrameProgram)
+import Frame.Frame (FrameProgram, PlannedFrame (PlannedFrame, role), Role (Drilling))
 import Frame.Frame qualified as Frame
 import Frame.MoveTime (moveLength, moveTime)
 import Machine.Machine (Machine, MachineName (..))
@@ -40,7 +40,7 @@ data StatementSummary = StatementSummary
     path :: Mm,
     -- | the time of these moves at the feeds of the machine, or of the program without a machine
     duration :: Seconds,
-    -- | the count of frames of its passes; absent without a machine, and for drilling
+    -- | the count of frames of its moves; absent without a machine
     ownFrames :: Maybe Int
   }
   deriving stock (Eq, Show)
@@ -61,41 +61,54 @@ summary toolpath machine program =
   where
     MachineName name = Machine.name machine
     planned = Frame.plannedFrames program
-    counts =
-      IntMap.fromListWith (+) [(n, 1) | f <- planned, Just n <- [Frame.passNumber (Frame.role f)]]
-    work = statements (Just (machine, counts)) toolpath
+    work = statements (Just (machine, frameCounts planned)) toolpath
 
--- | The summaries of the machining statements, in the order of the text. The frames of each pass,
--- counted by the number of the pass from 0, come with the machine.
-statements :: Maybe (Machine, IntMap Int) -> Toolpath -> [StatementSummary]
+-- | Counts of frames: those of each pass by the number of the pass, and those of each block of
+-- drilling by the number of the block. Both numbers are from 0.
+data FrameCounts = FrameCounts {ofPasses :: IntMap Int, ofDrilling :: IntMap Int}
+
+frameCounts :: [PlannedFrame] -> FrameCounts
+frameCounts planned =
+  FrameCounts
+    { ofPasses = counted [n | f <- planned, Just n <- [Frame.passNumber (Frame.role f)]],
+      ofDrilling = counted [n | PlannedFrame {role = Drilling n} <- planned]
+    }
+  where
+    counted numbers = IntMap.fromListWith (+) [(n, 1) | n <- numbers]
+
+-- | The summaries of the machining statements, in the order of the text. The counts of frames come
+-- with the machine.
+statements :: Maybe (Machine, FrameCounts) -> Toolpath -> [StatementSummary]
 statements made toolpath =
   Map.elems
     ( Map.fromListWith
         (flip plus)
         [ (statement s, s)
-          | (block, number) <- zip (blocks toolpath) (Toolpath.passNumbers (blocks toolpath)),
-            Just s <- [ofBlock made number block]
+          | (block, number, passNumber) <-
+              zip3 (blocks toolpath) [0 ..] (Toolpath.passNumbers (blocks toolpath)),
+            Just s <- [ofBlock made number passNumber block]
         ]
     )
 
--- | The summary of one block; Nothing if it is no machining. @number@ is the count of passes before
--- it.
-ofBlock :: Maybe (Machine, IntMap Int) -> Int -> Block -> Maybe StatementSummary
-ofBlock made number block = case block of
-  Cutting {job = Located at _} -> Just (summed at 1)
-  Clearing {pocket = Located at _} -> Just (summed at 1)
-  Holing (Located at _) _ -> Just (summed at 0)
+-- | The summary of one block; Nothing if it is no machining. @number@ is the count of blocks before
+-- it, and @passNumber@ the count of passes before it.
+ofBlock :: Maybe (Machine, FrameCounts) -> Int -> Int -> Block -> Maybe StatementSummary
+ofBlock made number passNumber block = case block of
+  Cutting {job = Located at _} -> Just (summed at 1 (ofPass . snd <$> made))
+  Clearing {pocket = Located at _} -> Just (summed at 1 (ofPass . snd <$> made))
+  Holing (Located at _) _ -> Just (summed at 0 (ofHoles . snd <$> made))
   Travelling {} -> Nothing
   Commanding _ -> Nothing
   where
-    summed at passes =
+    ofPass = IntMap.findWithDefault 0 passNumber . ofPasses
+    ofHoles = IntMap.findWithDefault 0 number . ofDrilling
+    summed at passes ownFrames =
       StatementSummary
         { statement = at,
           passes,
           path = total (map moveLength (Toolpath.moves block)),
           duration = total (map (moveTime (fst <$> made)) (Toolpath.moves block)),
-          ownFrames =
-            if passes == 0 then Nothing else IntMap.findWithDefault 0 number . snd <$> made
+          ownFrames
         }
 
 -- | The sum of two summaries of one statement.

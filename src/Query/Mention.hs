@@ -5,14 +5,20 @@ module Query.Mention
     MentionType (..),
     none,
     facts,
+    ofLoaded,
   )
 where
 
 import Base.Region (Region)
+import Base.Result (Result (..))
+import Checked.FromSurface qualified as Checked
 import Checked.Syntax (Mention (..), MentionType (..))
+import Checked.Syntax qualified as Checked
 import Data.Text (Text)
 import Part.Part (Part)
 import Part.Part qualified as Part
+import Project.LoadedProgram (LoadedProgram)
+import Project.LoadedProgram qualified as LoadedProgram
 
 -- | All mentions of names in a program, and the values of its definitions. Each pair in @values@ is
 -- the region of the defined name and the value as text.
@@ -29,3 +35,9 @@ facts :: Maybe ([Mention], Part) -> Mentions
 facts known = case known of
   Nothing -> none
   Just (mentions, part) -> Mentions {mentions, values = Part.readings part}
+
+-- | The mentions that the type checker finds in a loaded program.
+ofLoaded :: LoadedProgram -> [Mention]
+ofLoaded loaded = case output (LoadedProgram.surface loaded) of
+  Just program -> maybe [] Checked.mentions (output (Checked.check program))
+  Nothing -> []

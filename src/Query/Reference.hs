@@ -1,7 +1,9 @@
--- | All mentions of the name under the cursor.
+-- | All mentions of the name under the cursor, in its program and in other open programs.
 module Query.Reference
   ( References (..),
     references,
+    SharedReferences (..),
+    sharedReferences,
   )
 where
 
@@ -9,12 +11,20 @@ import Base.Region (Region)
 import Base.Region qualified as Region
 import Data.Containers.ListUtils (nubOrd)
 import Data.List (sort)
-import Data.Maybe (listToMaybe, mapMaybe)
+import Data.Map.Strict (Map)
+import Data.Map.Strict qualified as Map
+import Data.Maybe (fromMaybe, listToMaybe, mapMaybe)
+import Data.Set qualified as Set
+import Data.Text (Text)
+import Data.Text qualified as Text
+import Project.LoadedProgram qualified as LoadedProgram
 import Query.Mention (Mention)
 import Query.Mention qualified as Mention
 import Query.Name (Found (..))
 import Query.Name qualified as Name
 import Query.RegionMap qualified as RegionMap
+import Query.SharedFile (FileMentions, FilePlace (..), OpenProgram (..), SharedFile (..))
+import Query.SharedFile qualified as SharedFile
 import Query.Snapshot (Snapshot)
 import Query.Snapshot qualified as Snapshot
 
@@ -22,6 +32,8 @@ import Query.Snapshot qualified as Snapshot
 data References = References
   { -- | the mention under the cursor
     here :: Region,
+    -- | the name
+    name :: Text,
     -- | the region of the name in its definition; absent for a name of the language
     definition :: Maybe Region,
     -- | all mentions, the definition among them
@@ -39,6 +51,7 @@ references now before at = listToMaybe (mapMaybe ofFound (Name.found now before 
       Just
         References
           { here = place,
+            name = Mention.word mention,
             definition = Mention.definition mention >>= carried origin carry,
             places =
               nubOrd (sort (mapMaybe (carried origin carry) (alike origin mention)))
@@ -57,3 +70,83 @@ alike origin mention =
       Mention.word m == Mention.word mention,
       Mention.definition m == Mention.definition mention
   ]
+
+-- | The mentions of one name in several programs, by their files, and the place of its definition.
+-- The files of the program in which the name was asked for come first.
+data SharedReferences = SharedReferences
+  { definedAt :: Maybe FilePlace,
+    mentions :: [FileMentions]
+  }
+  deriving stock (Eq, Show)
+
+-- | The same as 'references' for several programs: the mentions in the program of the snapshot
+-- @now@, in its imported files as programs of their own, and in all other open programs that share
+-- the file of the definition. A name of the language is looked for in the one program only.
+sharedReferences ::
+  [OpenProgram] ->
+  Snapshot ->
+  Maybe Snapshot ->
+  Int ->
+  Maybe SharedReferences
+sharedReferences others now before at = ofOwn <$> references now before at
+  where
+    own = filesOf now
+    snapshots = map informed others
+    files = own <> concatMap (filesOf . present) others <> concatMap filesOf snapshots
+    texts = Map.fromListWith (\_ first' -> first') [(identity f, content f) | f <- files]
+    ofOwn found =
+      SharedReferences
+        { definedAt = definition found >>= SharedFile.inFile own,
+          mentions =
+            SharedFile.grouped
+              files
+              ( Set.fromList
+                  (mapMaybe (SharedFile.inFile own) (places found) <> elsewhere found)
+              )
+        }
+    elsewhere found =
+      [ place
+        | Just d <- [definition found >>= SharedFile.inFile own],
+          (inProgram, ms) <-
+            [(filesOf s, Mention.mentions (Snapshot.facts s)) | s <- snapshots]
+              <> concatMap (importedPrograms (name found)) (now : snapshots),
+          place <- placesOf texts inProgram d [m | m <- ms, Mention.word m == name found]
+      ]
+
+-- | The snapshot of an open program that knows the meanings of its names.
+informed :: OpenProgram -> Snapshot
+informed OpenProgram {present, previous}
+  | Snapshot.hasFacts present = present
+  | otherwise = fromMaybe present previous
+
+filesOf :: Snapshot -> [SharedFile]
+filesOf now = SharedFile.filesOf (Snapshot.identityOf now) (Snapshot.source now)
+
+-- | The imported files of a snapshot that contain a word, as programs of their own: the files and
+-- the mentions of each.
+importedPrograms :: Text -> Snapshot -> [([SharedFile], [Mention])]
+importedPrograms word now =
+  [ ( SharedFile.filesOf (Snapshot.identityOf now) (LoadedProgram.source loaded),
+      Mention.ofLoaded loaded
+    )
+    | (path, text) <- drop 1 (SharedFile.ownPrograms now),
+      word `Text.isInfixOf` text,
+      let loaded = Snapshot.loadedWith now [] path text
+  ]
+
+-- | The places of those mentions that have the definition @d@, in the present texts of their files.
+-- @texts@ are these texts by the identities of the files.
+placesOf :: Map Text Text -> [SharedFile] -> FilePlace -> [Mention] -> [FilePlace]
+placesOf texts files d ms =
+  [ place
+    | m <- ms,
+      (Mention.definition m >>= carried) == Just d,
+      Just place <- [carried (Mention.place m)]
+  ]
+  where
+    carried region = SharedFile.inFile files region >>= toPresent
+    toPresent place@(FilePlace i region) =
+      case (listToMaybe [content f | f <- files, identity f == i], Map.lookup i texts) of
+        (Just old, Just new)
+          | old /= new -> FilePlace i <$> RegionMap.forward (RegionMap.between old new) region
+        _ -> Just place

@@ -13,7 +13,9 @@ module Query.Snapshot
     hasFacts,
     hasFrames,
     importOf,
+    identityOf,
     reloaded,
+    loadedWith,
   )
 where
 
@@ -26,6 +28,7 @@ import Compile qualified
 import Data.Bifunctor (first)
 import Data.Functor.Identity (Identity (..))
 import Data.List qualified as List
+import Data.Map.Strict qualified as Map
 import Data.Maybe qualified as Maybe
 import Data.Text (Text)
 import Data.Text qualified as Text
@@ -91,6 +94,9 @@ data Snapshot = Snapshot
     imported :: [Statement],
     -- | the paths of all files on which the results depend, apart from the program's own
     dependencies :: [Text],
+    -- | the paths of the program, its imports and its table files, each with the identity of the
+    -- file: the same path for all paths that lead to the same file
+    identities :: [(Text, Text)],
     -- | the evaluated part; absent if nothing of the program could be checked
     part :: Maybe Part,
     -- | the toolpath; absent if the program has an error before this stage
@@ -111,6 +117,7 @@ unanalysed source =
       imports = [],
       imported = [],
       dependencies = [],
+      identities = [(Region.mainFile source, Region.mainFile source)],
       part = Nothing,
       path = Nothing,
       machines = []
@@ -137,6 +144,7 @@ inStages check loaded = (early, complete)
           imports = LoadedProgram.imports loaded,
           imported,
           dependencies = LoadedProgram.files loaded,
+          identities = LoadedProgram.identities loaded,
           part = snd <$> output evaluated,
           path = Nothing,
           machines = []
@@ -197,17 +205,36 @@ importOf Snapshot {source, imports} = go (length imports)
           at : _ -> Just (Maybe.fromMaybe at (go (steps - 1) at))
           [] -> Nothing
 
+-- | The identity of the file with this path, see 'identities'. A path that the program does not
+-- name is its own identity.
+identityOf :: Snapshot -> Text -> Text
+identityOf Snapshot {identities} path = Maybe.fromMaybe path (lookup path identities)
+
 -- | Loads another text of the program. The files that it imports have the texts that they have in
 -- the snapshot, except those in @changed@: pairs of a path and a new text.
 reloaded :: Snapshot -> [(Text, Text)] -> Text -> LoadedProgram
-reloaded Snapshot {source} changed text =
-  runIdentity (LoadedProgram.load (Import.byName reader) main text)
+reloaded now changed = loadedWith now changed (Region.mainFile (source now))
+
+-- | Loads a program with the path @path@ and the text @text@. It may import the files of the
+-- snapshot, which have the texts that they have there, except those in @changed@: pairs of a path
+-- and a new text.
+loadedWith :: Snapshot -> [(Text, Text)] -> Text -> Text -> LoadedProgram
+loadedWith now changed path text =
+  runIdentity (LoadedProgram.load reader (Text.unpack path) text)
   where
-    main = Text.unpack (Region.mainFile source)
-    reader path =
-      Identity
-        ( maybe
-            (Left "it is not part of the program")
-            Right
-            (lookup (Text.pack path) (changed <> drop 1 (Region.files source)))
-        )
+    reader =
+      Import.Reader
+        { Import.contents = \file ->
+            Identity
+              ( maybe
+                  (Left "it is not part of the program")
+                  Right
+                  (Map.lookup (identityOf now (Text.pack file)) texts)
+              ),
+          Import.identity = Identity . Text.unpack . identityOf now . Text.pack
+        }
+    -- The first of several texts with the same identity counts.
+    texts =
+      Map.fromListWith
+        (\_ first' -> first')
+        [(identityOf now file, t) | (file, t) <- changed <> Region.files (source now)]

@@ -46,7 +46,7 @@ quantise machine path =
     begin = rounded machine (p, z)
     block n b = case b of
       Toolpath.Travelling r _ ms -> map (Linking,r,) ms
-      Toolpath.Holing (Located _ d) ms -> map (Drilling,Part.drillRadius d,) ms
+      Toolpath.Holing (Located _ d) ms -> map (Drilling n,Part.drillRadius d,) ms
       Toolpath.Commanding _ -> []
       Toolpath.Clearing
         { Toolpath.pocket = Located _ pocket,

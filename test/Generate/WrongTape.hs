@@ -264,7 +264,7 @@ isLink _ s = case Frame.role (made s) of
   Frame.Approaching _ -> True
   Frame.Retracting _ -> True
   Frame.Linking -> True
-  Frame.Drilling -> True
+  Frame.Drilling _ -> True
   Frame.Cutting _ -> False
   Frame.Commanding -> False
 isAtFeed _ s = motionOf s /= Rapid
@@ -432,7 +432,7 @@ passOf s = (,0) <$> Frame.passNumber (Frame.role (made s))
 -- | The position of the hole of a station.
 holeOf :: Key
 holeOf s = case Frame.role (made s) of
-  Frame.Drilling -> let (Pulses x, Pulses y) = plane s in Just (x, y)
+  Frame.Drilling _ -> let (Pulses x, Pulses y) = plane s in Just (x, y)
   _ -> Nothing
 
 -- | The stations in runs with the same key.

@@ -28,7 +28,9 @@ spec = do
             { document = Document.open (Uri uri) Nothing text,
               now = look text,
               sound = Nothing,
-              tape = Nothing
+              tape = Nothing,
+              isAnalysed = True,
+              others = []
             }
         subjects =
           [opened "file:///a" "let pin = 1\n", opened "file:///b" "let span = 1\nlet c = 2\n"]

@@ -168,6 +168,40 @@ async def test_references_and_rename(client):
 
 
 @pytest.mark.asyncio
+async def test_references_and_rename_in_several_programs(client, tmp_path):
+    (tmp_path / "real").mkdir()
+    (tmp_path / "link").symlink_to(tmp_path / "real")
+    texts = {
+        (tmp_path / "real" / "pins.part").as_uri(): "part pins\nlet pin = 3 mm\n",
+        (tmp_path / "link" / "plate.part").as_uri(): 'part plate\nimport "pins.part"\nlet a = pin\nlet b = pin\n',
+        (tmp_path / "real" / "cover.part").as_uri(): 'part cover\nimport "plate.part"\nlet c = pin\n',
+    }
+    for uri, text in texts.items():
+        (tmp_path / "real" / uri.rsplit("/", 1)[-1]).write_text(text, encoding="utf-8")
+        await open_text(client, text, uri=uri)
+    library, plate, cover = texts
+    for uri, words, offset in ((library, "let pin", 4), (plate, "= pin", 2), (cover, "= pin", 2)):
+        at = place(texts[uri], words, offset)
+        document = types.TextDocumentIdentifier(uri=uri)
+        references = await client.text_document_references_async(
+            types.ReferenceParams(
+                text_document=document, position=at, context=types.ReferenceContext(include_declaration=True)
+            )
+        )
+        assert sorted(r.uri for r in references) == sorted([library, plate, plate, cover])
+        renamed = await client.text_document_rename_async(
+            types.RenameParams(text_document=document, position=at, new_name="bolt")
+        )
+        assert {u: applied(texts[u], edits) for u, edits in renamed.changes.items()} == {
+            u: text.replace("let pin", "let bolt").replace("= pin", "= bolt") for u, text in texts.items()
+        }
+        with pytest.raises(Exception, match="is taken"):
+            await client.text_document_rename_async(
+                types.RenameParams(text_document=document, position=at, new_name="c")
+            )
+
+
+@pytest.mark.asyncio
 async def test_a_fix_mends_its_mistake(client):
     wrong = FLANGE.replace("mill outline", "mill outlien")
     await open_text(client, wrong)
