@@ -42,7 +42,7 @@ work = do
       | (text, ExitSuccess) <- Opt.renderFailure request name ->
         statusOf <$> Subcommand.showHelp text
       | (text, status) <- Opt.renderFailure request name,
-        Just report <- OptionError.unknownOption parser text arguments ->
+        Just report <- OptionError.explained parser text arguments ->
         status <$ hPutStr stderr report
     _ -> statusOf <$> (Opt.handleParseResult parsed >>= Subcommand.run versionText)
   where

@@ -8,6 +8,7 @@ module Generate
     radiusOf,
     milled,
     job,
+    noPlaces,
     begin,
     outside,
     settings,
@@ -203,7 +204,7 @@ job c =
       Part.side = here (case side c of LeftOf -> Part.LeftSide; RightOf -> Part.RightSide),
       Part.radius = radius c,
       Part.gear = Nothing,
-      Part.places = Part.MillingPlaces (Region 0 0) Nothing (Region 0 0) Nothing Nothing,
+      Part.places = noPlaces,
       Part.tolerance = Part.OnPath (Mm 0.02),
       Part.feed = here (Feed 60),
       Part.approach = [Stop (here (begin c)) Nothing Part.Rapid],
@@ -222,6 +223,10 @@ job c =
     }
   where
     here = Located (Region 0 0)
+
+-- | The places of a milling that no program gives.
+noPlaces :: Part.MillingPlaces
+noPlaces = Part.MillingPlaces (Region 0 0) Nothing (Region 0 0) Nothing Nothing Nothing
 
 -- | Random settings of a milling: leads, corners, allowances and another starting point.
 settings :: Gen (Milling -> Milling)

@@ -1,12 +1,13 @@
--- | The usage error of an option that a subcommand does not have.
+-- | The usage errors of an option that a subcommand does not have, and of a parameter's value that
+-- is not written as one word with its name.
 module Cli.OptionError
-  ( unknownOption,
+  ( explained,
   )
 where
 
 import Base.Name qualified as Name
-import Data.List (find, stripPrefix)
-import Data.Maybe (fromMaybe, listToMaybe, mapMaybe)
+import Data.List (find, stripPrefix, tails)
+import Data.Maybe (catMaybes, fromMaybe, listToMaybe, mapMaybe)
 import Data.Text qualified as Text
 import Options.Applicative (ParserInfo)
 import Options.Applicative.Common qualified as Opt
@@ -16,6 +17,32 @@ import Options.Applicative.Types qualified as Opt
 -- | An option of a subcommand: its short and long names with their dashes, and the word for its
 -- value, which is empty for an option without one.
 data OptionForm = OptionForm {names :: [String], value :: String}
+
+-- | The lines that report a mistake in these arguments better than the library does. The second
+-- argument is the text of the library. 'Nothing' if that text is to be shown.
+explained :: ParserInfo a -> String -> [String] -> Maybe String
+explained info failure arguments =
+  listToMaybe (catMaybes [unknownOption info failure arguments, valueApart failure arguments])
+
+-- | The lines that report the name of a parameter without its value.
+valueApart :: String -> [String] -> Maybe String
+valueApart failure arguments = do
+  _ <- stripPrefix "option --set: " failure
+  (name, following) <-
+    listToMaybe
+      [ (name, more)
+        | "--set" : name : more <- tails arguments,
+          '=' `notElem` name
+      ]
+  pure . unlines $
+    [ "‘" <> name <> "’ has no value",
+      "Write the name and the value as one word: --set "
+        <> name
+        <> "="
+        <> fromMaybe "VALUE" (find isNumber following)
+    ]
+  where
+    isNumber text = all (`elem` ("0123456789.-" :: String)) text && text /= ""
 
 -- | The lines that report an option which the subcommand of these arguments does not have. The
 -- second argument is the text in which the library reports the mistake. 'Nothing' for other

@@ -16,10 +16,12 @@ where
 import Base.Decimal qualified as Decimal
 import Base.Quantity (Feed (..), Mm (..), plus, times)
 import Base.Region (Region)
+import Data.Maybe (isJust)
 import Data.Text (Text)
 import Data.Text qualified as Text
 import Geometry.Vec (Point)
 import Geometry.Vec qualified as Vec
+import Machine.BuiltIn qualified as BuiltIn
 import Machine.Machine (Axis, Machine, MachineName (..))
 import Machine.Machine qualified as Machine
 import Report.Fix (Fix)
@@ -101,7 +103,8 @@ toReport machine err = case err of
           [ if asked > highest
               then feedFix "Write its largest feed" region (roundedTo floor highest)
               else feedFix "Write its lowest feed" region (roundedTo ceiling lowest)
-          ]
+          ],
+        hints = perTurn asked
       }
   FrequencyOutOfRange region asked needed (low, lowFeed) (high, highFeed) ->
     ( report
@@ -129,7 +132,8 @@ toReport machine err = case err of
           [ if needed > high
               then feedFix "Write the largest feed for this move" region (limited floor high)
               else feedFix "Write the lowest feed for this move" region (limited ceiling low)
-          ]
+          ],
+        hints = perTurn asked
       }
     where
       limited :: (Double -> Int) -> Double -> Text
@@ -216,8 +220,14 @@ toReport machine err = case err of
     )
       { message = ["The cutter would move in " <> axisName axis <> " here."],
         hints =
-          [ "Leave the depth or the third coordinate out and set the height by hand, or compile \
-            \for a machine that has this axis."
+          [ "Compile for a machine that has this axis: "
+              <> Text.intercalate
+                ", "
+                [ machineName m
+                  | m <- BuiltIn.machines,
+                    isJust (Machine.axisForm m axis)
+                ]
+              <> "."
           ]
       }
   PositionOutOfField region axis position limit ->
@@ -425,6 +435,13 @@ warningReport machine warning = case warning of
         (Machine.AlongPath, Machine.Nearest) -> "the machine runs the nearest of its feeds"
         (Machine.LeadingAxis, _) -> "the feeds of this machine are steps along the leading axis"
     turns n = Decimal.short 1 n <> " turns a minute"
+
+-- | The hint for a feed that is so low that it may be meant for one turn of the spindle.
+perTurn :: Feed -> [Text]
+perTurn (Feed f) =
+  [ "Feeds are in mm/min. Multiply a feed for one turn of the spindle by its speed in rpm."
+    | f < 2
+  ]
 
 -- | Fix that writes another feed.
 feedFix :: Text -> Region -> Text -> Fix

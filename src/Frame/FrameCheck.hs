@@ -139,7 +139,7 @@ checkNewFeed FrameContext {machine, isAlongPath} key@(region, v) f before =
       | otherwise ->
         before
           { withoutCode =
-              Map.insertWith (\_ first -> first) key (frequencyError low high) (withoutCode before)
+              Map.insertWith furthest key (frequencyError low high) (withoutCode before)
           }
   where
     l = FeedCode.frameLength machine f
@@ -150,6 +150,14 @@ checkNewFeed FrameContext {machine, isAlongPath} key@(region, v) f before =
         (FeedCode.codeValue machine v f l)
         (low, FeedCode.feedAlongAxis machine low)
         (high, FeedCode.feedAlongAxis machine high)
+
+-- | The one of two errors of a feed that is further from the frequencies of the machine.
+furthest :: Error -> Error -> Error
+furthest new old = if distance new > distance old then new else old
+  where
+    distance e = case e of
+      FrequencyOutOfRange _ _ needed (low, _) (high, _) -> max (needed / high) (low / needed)
+      _ -> 0
 
 -- | The smallest range that contains both ranges.
 united :: FeedRange -> FeedRange -> FeedRange

@@ -28,7 +28,7 @@ import Data.List (foldl', mapAccumL, minimumBy)
 import Data.List.NonEmpty (NonEmpty (..))
 import Data.List.NonEmpty qualified as NonEmpty
 import Data.Map.Strict qualified as Map
-import Data.Maybe (fromMaybe, listToMaybe, mapMaybe)
+import Data.Maybe (fromMaybe, listToMaybe, mapMaybe, maybeToList)
 import Data.Ord (comparing)
 import Frame.Arc (ArcStep (..), ArcTolerance (..))
 import Frame.Arc qualified as Arc
@@ -68,8 +68,8 @@ import Toolpath.Toolpath (Move (..), Toolpath (Toolpath), heights)
 import Toolpath.Toolpath qualified as Toolpath
 
 -- | Frames of a toolpath, or the errors because of which there are none. If a point is out of reach
--- or "Frame.InstructionCheck" estimates too many frames, no more moves become frames. Then only the
--- warnings about the start and the commands are given.
+-- or "Frame.InstructionCheck" estimates too many frames, no more moves become frames. Warnings are
+-- given only if there are frames.
 quantise :: Machine -> Toolpath -> Result Warning Error FrameProgram
 quantise
   machine
@@ -78,9 +78,8 @@ quantise
     -- toolpath in memory.
     foldr seq () (tooCoarse <> tooMany) `seq` case errorsOf tooCoarse tooMany made of
       [] -> Result warnings [] (Just (FrameProgram begin frames))
-      problems
-        | isUnbounded -> Result (nubOrd (startWarnings <> commandWarnings made)) problems Nothing
-        | otherwise -> Result warnings problems Nothing
+      -- No warnings: without frames, nothing runs otherwise than asked for.
+      problems -> Result [] (map (atDepth path) problems) Nothing
     where
       begin = Rounding.rounded machine (startPoint, startHeight)
       context =
@@ -99,9 +98,22 @@ quantise
       frames = LazyList.toList making
       tooCoarse = mapMaybe (toleranceError machine) (Toolpath.blocks path)
       tooMany = contourErrors machine path
-      isUnbounded = not (null (InstructionCheck.boundErrors (instructionFindings made)))
       startWarnings = startWarning machine startRegion (SpacePoint startPoint startHeight) begin
       warnings = nubOrd (startWarnings <> warningsOf made)
+
+-- | The error of an axis z that the machine does not have, with the first depth that the program
+-- gives, or else the move, as its place. All other errors stay as they are.
+atDepth :: Toolpath -> Error -> Error
+atDepth path e = case e of
+  NoSuchAxis _ Machine.Z
+    | depth : _ <- concatMap depthOf (Toolpath.blocks path) -> NoSuchAxis depth Machine.Z
+  _ -> e
+  where
+    depthOf block = case block of
+      Toolpath.Cutting {Toolpath.job = Located _ milling} -> depthIn milling
+      Toolpath.Clearing {Toolpath.pocket = Located _ pocket} -> depthIn (Part.wall pocket)
+      _ -> []
+    depthIn = maybeToList . Part.depthAt . Part.places
 
 -- | All errors, each once. @tooCoarse@ are the errors about too large tolerances, @tooMany@ is the
 -- error about too many contours, and @made@ is the state after the last instruction.

@@ -452,9 +452,18 @@ tableReport region fault = case fault of
           ["Feeds and speeds are above 0, and below 1000000000."]
       }
   CodeTooLarge n largest ->
-    (wrong ("the code " <> Decimal.whole n <> " does not fit the word of the feed"))
+    ( wrong
+        ( "the codes of the feeds go up to "
+            <> Decimal.whole n
+            <> ", but the word of the feed holds at most "
+            <> Decimal.whole largest
+        )
+    )
       { hints =
-          ["Its digits hold 0 to " <> Decimal.whole largest <> "."]
+          [ "Give the word of the feed more digits, or end the codes at "
+              <> Decimal.whole largest
+              <> "."
+          ]
       }
   NoSuchCode n ->
     (wrong ("the table has no code " <> Decimal.whole n))

@@ -18,6 +18,7 @@ import Base.Quantity (Mm (..))
 import Base.Region (Located, Region (..))
 import Data.List (nub)
 import Data.List.NonEmpty (NonEmpty)
+import Data.List.NonEmpty qualified as NonEmpty
 import Data.Text qualified as Text
 import Geometry.Carrier (Circle (..))
 import Geometry.ElementCarrier (ElementCarrier (..))
@@ -71,6 +72,11 @@ data ContourFault
     -- when fillets get the other sense, the last field has these fillets. The report points at the
     -- first of the two elements
     CrossesItself Region Region Region Point Bool (Maybe FittingFillets)
+  | -- | a fault that ends when two neighbouring items of the contour change places
+    OutOfOrder ContourFault Region Region
+  | -- | lines that do not touch the circles that they join, while tangents join these circles: the
+    -- fault of the first line, the region of the link before each line and the item of the line
+    TangentMeant ContourFault (NonEmpty (Region, Region))
   deriving stock (Eq, Show)
 
 -- | An end of an open contour that lies on a circle: the item of the circle, true for the beginning
@@ -140,12 +146,33 @@ toReport fault = case fault of
   NotLinked neighbours linkFault -> LinkError.toReport neighbours linkFault
   NotLinkedOften neighbours linkFault edges -> LinkError.repeatedReport neighbours edges linkFault
   Overrun region carrier overlap links largest -> overrunReport region carrier overlap links largest
+  OutOfOrder inner first second ->
+    let r = toReport inner
+     in r
+          { others = [Label first "exchange this", Label second "with this"],
+            fixes =
+              Fix.proposed (Fix.swap exchange first second) : fixes r,
+            hints = []
+          }
+    where
+      exchange = "Exchange the two elements, if their order is wrong."
+  TangentMeant inner lines' ->
+    let title = "Join the circles by a tangent: write tangent in place of smooth and the line."
+     in (toReport inner)
+          { hints = [],
+            fixes =
+              [ Fix.proposed . Fix.joined title $
+                  concat
+                    [ [Fix.exchange title at' "tangent", Fix.removal title line]
+                      | (at', line) <- NonEmpty.toList lines'
+                    ]
+              ]
+          }
   CrossesItself contour first second p hasFillets turned ->
-    (at first "E0325" "the contour crosses or touches itself")
+    (at first "E0325" ("the contour crosses or touches itself at " <> Vec.toText 4 p))
       { label = "this element",
         others =
           [Label second "meets this one" | second /= first] <> [Label contour "in this contour"],
-        message = ["They meet at " <> Vec.toText 4 p <> "."],
         fixes =
           [LinkError.turnedFix fillets | Just fillets <- [turned]],
         hints =
@@ -153,7 +180,9 @@ toReport fault = case fault of
             \counter-clockwise."
             | hasFillets
           ]
-            <> ["Correct the numbers of one of the two elements." | not hasFillets]
+            <> [ "Correct the numbers of one of the two elements, or the order of the elements."
+                 | not hasFillets
+               ]
       }
 
 -- | The report of an open contour that begins or ends on a circle. If the circle is the only

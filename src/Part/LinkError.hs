@@ -14,7 +14,7 @@ module Part.LinkError
 where
 
 import Base.Decimal qualified as Decimal
-import Base.Quantity (Mm, Rad, degrees)
+import Base.Quantity (Mm (..), Rad, degrees, minus)
 import Base.Region (Located (..), Region (..))
 import Data.List (nub)
 import Data.List.NonEmpty (NonEmpty (..))
@@ -92,6 +92,7 @@ toReport j fault = case fault of
   NoMeeting gap ->
     (titled "E0311" (both j <> " do not meet: they are " <> Decimal.nonZeroMm gap <> " apart"))
       { controlStop = Just "17533",
+        message = touchText j,
         fixes = joinFixes j <> tangentFixes j,
         hints =
           [ alternatively
@@ -119,6 +120,7 @@ toReport j fault = case fault of
   NotSmooth gap rounded ->
     (titled "E0315" (both j <> " do not touch: they miss it by " <> Decimal.mm gap))
       { controlStop = Just "17533",
+        message = touchText j,
         fixes = [filletsFix "Join them with a fillet: " fillets | Just fillets <- [rounded]],
         hints =
           [ alternatively
@@ -272,6 +274,33 @@ repeatedReport js@(j :| more) edges fault = case fault of
       0 -> ""
       n -> " (" <> Decimal.whole (n + 1) <> " times in this contour)"
     places = [Label (link k) "also here" | k <- take 5 more]
+
+-- | The sentence that says what would make a circle touch a line or another circle. Empty for other
+-- neighbours.
+touchText :: Neighbours -> [Text]
+touchText j = case (value (before j), value (after j)) of
+  (OnLine l, OnCircle _ c) -> beside (abs' (Carrier.signedDistance l (centre c))) c "line"
+  (OnCircle _ c, OnLine l) -> beside (abs' (Carrier.signedDistance l (centre c))) c "line"
+  (OnCircle _ c, OnCircle _ d) ->
+    let between' = Vec.distance (centre c) (centre d)
+     in if between' > max (radius c) (radius d)
+          then beside (minus between' (radius c)) d "other circle"
+          else []
+  _ -> []
+  where
+    abs' (Mm x) = Mm (abs x)
+    beside r c other =
+      [ "With the radius "
+          <> Decimal.mm r
+          <> ", or with its centre "
+          <> Decimal.mm (abs' (minus r (radius c)))
+          <> (if r > radius c then " nearer, " else " further away, ")
+          <> describe (OnCircle Clockwise c)
+          <> " would touch the "
+          <> other
+          <> "."
+        | r > Mm 0
+      ]
 
 -- | An error that points at a link and labels its two neighbours.
 linkTitle :: Neighbours -> ReportCode -> Text -> Report

@@ -44,11 +44,11 @@ import Part.ContourError
     Neighbours (Neighbours),
   )
 import Part.ContourError qualified as ContourError
-import Part.FilletSearch qualified as FilletSearch
 import Part.Link (Link (..))
 import Part.LinkCandidate (Joint (..))
 import Part.LinkCandidate qualified as LinkCandidate
 import Part.LinkElement (LinkedElement (..), edgesOf)
+import Part.LinkSearch qualified as LinkSearch
 import Part.Part (Element (Element, continues, origin, segment), plainFinish)
 import Part.Tolerance qualified as Tolerance
 
@@ -65,7 +65,8 @@ solve region ends linked = case attempt region ends linked of
   Right elements -> Right elements
   Left found ->
     let faults = fromMaybe (found :| []) (NonEmpty.nonEmpty (unlinked (value ends) linked))
-     in Left (fmap (withLargest region ends linked) (withoutRepetition (value ends) linked faults))
+        fits changed = either (const False) (const True) (attempt region ends changed)
+     in Left (LinkSearch.explained fits linked (withoutRepetition (value ends) linked faults))
 
 -- | The faults of the links that cannot join their neighbours. A repetition can make several links
 -- with one region, or between elements of the same two regions. Of the faults of such links, only
@@ -111,37 +112,6 @@ withoutRepetition ends linked faults =
               go (filter (isNothing . same) more)
       f : more -> f : go more
       [] -> []
-
--- | If the fault may be caused by a fillet that is too large, adds the largest radius that fits.
-withLargest :: Region -> Located Ends -> NonEmpty LinkedElement -> ContourFault -> ContourFault
-withLargest region ends linked fault = case fault of
-  NotLinked j (NoFillet sense r _ _) ->
-    NotLinked
-      j
-      ( NoFillet
-          sense
-          r
-          (FilletSearch.largest fits linked [ContourError.link j])
-          (FilletSearch.turned fits linked (== ContourError.link j))
-      )
-  NotLinked j (NotSmooth gap _) ->
-    NotLinked j (NotSmooth gap (FilletSearch.inPlaceOf fits linked (ContourError.link j)))
-  NotLinked j (Kinked angle _) -> NotLinked j (Kinked angle (fits (withoutLink j)))
-  NotLinked j (SameCurve _) -> NotLinked j (SameCurve (leavingOutMends j))
-  NotLinked j (CoincidentTangent _) -> NotLinked j (CoincidentTangent (leavingOutMends j))
-  Overrun at shape overlap links _ ->
-    Overrun at shape overlap links (FilletSearch.largest fits linked links)
-  CrossesItself name a b p hasFillets _ ->
-    CrossesItself name a b p hasFillets (FilletSearch.turned fits linked (const True))
-  _ -> fault
-  where
-    fits changed = either (const False) (const True) (attempt region ends changed)
-    withoutLink j = fmap (unlinkedFrom (ContourError.link j)) linked
-    unlinkedFrom at w = if fmap fst (link w) == Just at then w {link = Nothing} else w
-    leavingOutMends j =
-      maybe False fits $
-        NonEmpty.nonEmpty
-          (NonEmpty.filter ((/= snd (ContourError.items j)) . itemRegion) linked)
 
 -- | Computes the segments of a contour, or its first fault.
 attempt ::

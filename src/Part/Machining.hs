@@ -169,6 +169,7 @@ placesOf at tool accuracy settings =
     { statement = at,
       toolSize = cutterSize tool,
       accuracy,
+      depthAt = region . fst <$> Checked.depth settings,
       leadInSize = region . snd <$> Checked.leadIn settings,
       leadOutSize = region . snd <$> Checked.leadOut settings
     }

@@ -239,6 +239,8 @@ data MillingPlaces = MillingPlaces
     toolSize :: Maybe Region,
     -- | the tolerance
     accuracy :: Region,
+    -- | the depth
+    depthAt :: Maybe Region,
     -- | the lengths or radii of the lead-in and of the lead-out
     leadInSize :: Maybe Region,
     leadOutSize :: Maybe Region

@@ -63,12 +63,18 @@ toReport misfit = case misfit of
               <> "."
           ],
         hints =
-          ["What is joined to the wall is a part of the outline: draw the outline round it."]
+          [ "Correct the place or the size of "
+              <> quote name
+              <> ". Or, if it is to be joined to the wall, draw the outline round it."
+          ]
       }
   Meets region (Name name) (Name other) False p ->
     (at region "E0358" ("the island " <> quote name <> " meets the island " <> quote other))
       { message = ["They cross or touch at " <> Vec.toText 4 p <> "."],
-        hints = ["Draw islands that grow together as one contour."]
+        hints =
+          [ "Correct the place or the size of one of them. Or draw islands that grow together as \
+            \one contour."
+          ]
       }
   StepTooWide region stepover diameter ->
     ( at

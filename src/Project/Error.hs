@@ -11,6 +11,7 @@ import Base.Decimal qualified as Decimal
 import Base.Name qualified as Name
 import Base.Region (Position (..), Region)
 import Base.Region qualified as Region
+import Data.List (nub)
 import Data.Text (Text)
 import Data.Text qualified as Text
 import Project.MachineDescription qualified as MachineDescription
@@ -106,7 +107,7 @@ reportWith option err = case err of
         ("the machine’s description ‘" <> file <> "’ has mistakes")
     )
       { message = [inOneLine file text r | r <- Report.sorted reports],
-        hints = ["partc machines " <> file <> " shows them in full."]
+        hints = nub (concatMap Report.remedies (Report.sorted reports))
       }
   NothingToPunch ->
     (wrong "E0808" InFile "the program moves nothing, so there is no tape to punch")
@@ -117,12 +118,12 @@ reportWith option err = case err of
   where
     wrong = report Report.Error
 
--- | A report on a machine description as one line of text: line number, column and title, or only
--- the title if the report has no region. @file@ and @text@ are the name and the text of the
+-- | A report on a machine description as one line of text: file, line number, column and title, or
+-- only the title if the report has no region. @file@ and @text@ are the name and the text of the
 -- description.
 inOneLine :: Text -> Text -> Report -> Text
 inOneLine file text r = case place r of
   InSource region ->
     let Position {line, column} = Region.position (Region.fromText file text) (Region.start region)
-     in Decimal.whole line <> ":" <> Decimal.whole column <> ": " <> title r
+     in file <> ":" <> Decimal.whole line <> ":" <> Decimal.whole column <> ": " <> title r
   _ -> title r

@@ -21,10 +21,12 @@ import Base.Name (Name (..))
 import Base.Quantity (Mm (..), Rad (..), minus, plus, times)
 import Base.Region (Located (..), Region)
 import Data.Text (Text)
+import Data.Text qualified as Text
 import Geometry.Segment (Segment (..))
 import Geometry.Segment qualified as Segment
 import Geometry.Vec (Point)
 import Geometry.Vec qualified as Vec
+import Part.ErrorText (andMore)
 import Part.Part (Contour (contourName), Element (..), Ends (..), MillingPlaces, Side (..))
 import Report.Fix qualified as Fix
 import Report.Report (Label (..), Report (..))
@@ -63,9 +65,10 @@ data Error
     CutsPart Region Segment Element Mm Intrusion Point (Maybe ContourBeginning)
   | -- | linking moves that cut into the part for one cause
     WrongLink LinkingMoveError
-  | -- | a hole that cuts into a contour: the region of the hole, its centre, the element, the depth
-    -- of the cut, the radius of the drill, the region of its diameter
-    HoleCuts Region Point Element Mm Mm (Maybe Region)
+  | -- | a hole that cuts into a contour: the region of the hole, its centre, the centres of other
+    -- holes of this region that cut in, the element, the depth of the cut, the radius of the drill,
+    -- the region of its diameter
+    HoleCuts Region Point [Point] Element Mm Mm (Maybe Region)
   | -- | milling one contour cuts into another: the statement, the region of the element along which
     -- the cutter moves, the element that is cut, the depth of the cut, the position of the centre.
     -- In a pocket the second region is that of the statement, too
@@ -218,24 +221,29 @@ toReport err = case err of
     ( at
         (origin first)
         "E0404"
-        (cutter tool <> " cannot follow this element without cutting another one")
+        (cutter tool <> " does not fit between " <> shape first <> " and " <> shape second)
     )
       { label = shape first,
         others =
           secondLabel first second
             <> [Label region (workVerb tool <> " here") | region /= origin first],
         message =
-          [ "With its centre at "
+          [ "On its way along the first one, with its centre at "
               <> Vec.toText 3 p
-              <> " on the path along "
-              <> shape first
-              <> " it would cut "
-              <> shape second
-              <> "."
+              <> ", it would cut the second one."
           ],
-        fixes = ErrorFix.sizeFixes tool largest <> [ErrorFix.restFix (places tool)],
-        hints = [largestFit tool largest | null (ErrorFix.sizeFixes tool largest)]
+        fixes = smaller <> [ErrorFix.restFix (places tool)],
+        hints =
+          [ if null smaller
+              then "Correct the place or the size of one of the two. " <> largestFit tool largest
+              else "Or correct the place or the size of one of the two."
+          ]
       }
+    where
+      -- A much smaller cutter is hardly meant: then a number is wrong.
+      smaller
+        | any (> times 0.5 (radius tool)) largest = ErrorFix.sizeFixes tool largest
+        | otherwise = []
   CutsPart region move element depth intrusion p beginning ->
     (at region "E0405" ("this move " <> intruding intrusion depth))
       { label = "the move to here",
@@ -265,7 +273,7 @@ toReport err = case err of
           ]
       }
   WrongLink fault -> LinkingMoveError.toReport fault
-  HoleCuts region p element deep drill size ->
+  HoleCuts region p also element deep drill size ->
     ( at
         region
         "E0413"
@@ -273,12 +281,16 @@ toReport err = case err of
     )
       { others = [Label (origin element) ("it cuts " <> shape element) | origin element /= region],
         message =
-          [ "The drill has a diameter of " <> Decimal.mm (times 2 drill) <> ".",
-            "If several holes of this statement cut into a contour, this one does most."
-          ],
+          ["The drill has a diameter of " <> Decimal.mm (times 2 drill) <> "."]
+            <> [ "So " <> (case also of [_] -> "does the hole at "; _ -> "do the holes at ")
+                   <> Text.intercalate " and " (map (Vec.toText 3) (take 3 also))
+                   <> andMore 3 also
+                   <> "."
+                 | not (null also)
+               ],
         fixes = ErrorFix.drillFixes size (minus drill deep),
         hints =
-          ["Check the place of the hole, and that the tool was changed before drilling."]
+          ["Correct the place of the hole or the contour, or change the tool before drilling."]
       }
   MillsItself region side element depth ends ->
     (at side "E0406" "on this contour the cutter cuts away what is to stand on one side of it")

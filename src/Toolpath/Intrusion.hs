@@ -13,7 +13,7 @@ where
 import Base.Quantity (Mm (..), minus, plus, times)
 import Base.Region (Located (..), Region (..))
 import Data.Function (on)
-import Data.List (groupBy, maximumBy, minimumBy, nubBy, sortOn)
+import Data.List (groupBy, maximumBy, minimumBy, nub, nubBy, sortOn)
 import Data.List.NonEmpty (NonEmpty (..))
 import Data.List.NonEmpty qualified as NonEmpty
 import Data.Map.Strict qualified as Map
@@ -55,13 +55,15 @@ intrusions path = worst (concatMap (intrusionsOfBlock machined) (Toolpath.blocks
   where
     machined = Wall.index (Toolpath.blocks path)
     worst errors =
-      map
-        (minimumBy (comparing depth))
-        (Map.elems (Map.fromListWith (flip (<>)) [(regionOf e, [e]) | e <- errors]))
+      map deepest (Map.elems (Map.fromListWith (flip (<>)) [(regionOf e, [e]) | e <- errors]))
+    deepest errors = case minimumBy (comparing depth) errors of
+      HoleCuts at p _ element deep drill size ->
+        HoleCuts at p (nub [q | HoleCuts _ q _ _ _ _ _ <- errors, q /= p]) element deep drill size
+      e -> e
     regionOf e = case e of
       CutsPart at _ _ _ _ _ _ -> at
       WrongLink fault -> LinkingMoveError.place fault
-      HoleCuts at _ _ _ _ _ -> at
+      HoleCuts at _ _ _ _ _ _ -> at
       MillsItself at _ _ _ _ -> at
       MillsAnother at _ _ _ _ -> at
       _ -> Region 0 0
@@ -70,7 +72,7 @@ intrusions path = worst (concatMap (intrusionsOfBlock machined) (Toolpath.blocks
 depth :: Error -> Double
 depth e = case e of
   CutsPart _ _ _ (Mm d) _ _ _ -> -d
-  HoleCuts _ _ _ (Mm d) _ _ -> -d
+  HoleCuts _ _ _ _ (Mm d) _ _ -> -d
   MillsItself _ _ _ (Mm d) _ -> -d
   MillsAnother _ _ _ (Mm d) _ -> -d
   _ -> 0
@@ -109,7 +111,7 @@ intrusionsOfBlock machined b = case b of
     found = intrusionsOfMove machined
     asHole d e = case e of
       CutsPart at move element deep _ _ _ ->
-        HoleCuts at (Segment.end move) element deep (Part.drillRadius d) (Part.drillSize d)
+        HoleCuts at (Segment.end move) [] element deep (Part.drillRadius d) (Part.drillSize d)
       _ -> e
 
 -- | The intrusions of the moves of a pass along a contour. Empty for other blocks.

@@ -99,8 +99,8 @@ unmarked :: Error -> Error
 unmarked e = case e of
   CutsPart at move element deep how p begins ->
     CutsPart at move (original element) deep how p begins
-  HoleCuts at centre element deep drill size ->
-    HoleCuts at centre (original element) deep drill size
+  HoleCuts at centre also element deep drill size ->
+    HoleCuts at centre also (original element) deep drill size
   MillsAnother at along element deep p -> MillsAnother at (inText along) (original element) deep p
   _ -> e
   where

@@ -1,0 +1,138 @@
+-- | Search for changes of a contour with which it has no fault: neighbouring items in exchanged
+-- order, and tangents in place of lines between circles. Reports offer them as fixes.
+module Part.LinkSearch
+  ( explained,
+  )
+where
+
+import Base.Region (Located (..), Region)
+import Data.Containers.ListUtils (nubOrd)
+import Data.List.NonEmpty (NonEmpty (..))
+import Data.List.NonEmpty qualified as NonEmpty
+import Data.Maybe (listToMaybe, mapMaybe)
+import Geometry.ElementCarrier (ElementCarrier (..))
+import Part.ContourError (ContourFault (..), LinkFault (..))
+import Part.ContourError qualified as ContourError
+import Part.FilletSearch qualified as FilletSearch
+import Part.Link (Link (..))
+import Part.LinkElement (LinkedElement (..))
+
+-- | The faults of a contour with changes that mend it. If another order of two items mends it, or
+-- tangents in place of lines, the result is one fault. @fits@ is true of elements without a fault.
+explained ::
+  (NonEmpty LinkedElement -> Bool) ->
+  NonEmpty LinkedElement ->
+  NonEmpty ContourFault ->
+  NonEmpty ContourFault
+explained fits linked faults
+  | any isMended mended = mended
+  | Just lines' <- tangents fits (`elem` untouched) linked =
+    TangentMeant (NonEmpty.head mended) lines' :| []
+  | any mayBeOrder faults,
+    Just (a, b) <- exchanged fits linked =
+    OutOfOrder (NonEmpty.head mended) a b :| []
+  | otherwise = mended
+  where
+    mended = fmap (withLargest fits linked) faults
+    untouched =
+      concat
+        [ [at | Located at _ <- [ContourError.before j, ContourError.after j]]
+          | NotLinked j (NotSmooth _ _) <- NonEmpty.toList faults
+        ]
+    -- A fillet of another radius or sense mends the fault, and is more likely.
+    isMended f = case f of
+      NotLinked _ (NoFillet _ _ (Just _) _) -> True
+      NotLinked _ (NoFillet _ _ _ (Just _)) -> True
+      Overrun _ _ _ _ (Just _) -> True
+      CrossesItself _ _ _ _ _ (Just _) -> True
+      _ -> False
+    mayBeOrder f = case f of
+      NotLinked _ (ParallelLines _) -> True
+      NotLinked _ (NoMeeting _) -> True
+      NotLinked _ TurnsBack -> True
+      Overrun {} -> True
+      CrossesItself {} -> True
+      _ -> False
+
+-- | If the fault may be caused by a fillet that is too large, adds the largest radius that fits.
+withLargest ::
+  (NonEmpty LinkedElement -> Bool) -> NonEmpty LinkedElement -> ContourFault -> ContourFault
+withLargest fits linked fault = case fault of
+  NotLinked j (NoFillet sense r _ _) ->
+    NotLinked
+      j
+      ( NoFillet
+          sense
+          r
+          (FilletSearch.largest fits linked [ContourError.link j])
+          (FilletSearch.turned fits linked (== ContourError.link j))
+      )
+  NotLinked j (NotSmooth gap _) ->
+    NotLinked j (NotSmooth gap (FilletSearch.inPlaceOf fits linked (ContourError.link j)))
+  NotLinked j (Kinked angle _) -> NotLinked j (Kinked angle (fits (withoutLink j)))
+  NotLinked j (SameCurve _) -> NotLinked j (SameCurve (leavingOutMends j))
+  NotLinked j (CoincidentTangent _) -> NotLinked j (CoincidentTangent (leavingOutMends j))
+  Overrun at shape overlap links _ ->
+    Overrun at shape overlap links (FilletSearch.largest fits linked links)
+  CrossesItself name a b p hasFillets _ ->
+    CrossesItself name a b p hasFillets (FilletSearch.turned fits linked (const True))
+  _ -> fault
+  where
+    withoutLink j = fmap (unlinkedFrom (ContourError.link j)) linked
+    unlinkedFrom at w = if fmap fst (link w) == Just at then w {link = Nothing} else w
+    leavingOutMends j =
+      maybe False fits $
+        NonEmpty.nonEmpty
+          (NonEmpty.filter ((/= snd (ContourError.items j)) . itemRegion) linked)
+
+-- | Two neighbouring items in whose exchanged order the contour has no fault. @fits@ is true of
+-- elements without a fault. Each item has to give one element. At most 'mostTried' pairs are tried.
+exchanged ::
+  (NonEmpty LinkedElement -> Bool) -> NonEmpty LinkedElement -> Maybe (Region, Region)
+exchanged fits linked
+  | length (nubOrd (map itemRegion elements)) < length elements = Nothing
+  | otherwise =
+    listToMaybe
+      [ (itemRegion a, itemRegion b)
+        | n <- [0 .. min mostTried (length elements) - 2],
+          (front, a : b : back) <- [splitAt n elements],
+          Just changed <- [NonEmpty.nonEmpty (front <> (b : a : back))],
+          fits changed
+      ]
+  where
+    elements = NonEmpty.toList linked
+
+-- | The largest number of exchanges that are tried.
+mostTried :: Int
+mostTried = 100
+
+-- | Lines between two circles, both joined to them by @smooth@, whose replacement by tangents
+-- leaves the contour without a fault: the region of the link before each line, and the item of the
+-- line. @fits@ is true of elements without a fault, and @isUnfit@ of the elements that may be
+-- replaced. Nothing if there are no such lines.
+tangents ::
+  (NonEmpty LinkedElement -> Bool) ->
+  (Region -> Bool) ->
+  NonEmpty LinkedElement ->
+  Maybe (NonEmpty (Region, Region))
+tangents fits isUnfit linked = do
+  replaced <-
+    NonEmpty.nonEmpty (concatMap replaceable (zip3 elements (drop 1 around) (drop 2 around)))
+  changed <- NonEmpty.nonEmpty (mapMaybe (changedBy replaced) elements)
+  if fits changed then Just replaced else Nothing
+  where
+    elements = NonEmpty.toList linked
+    around = cycle elements
+    replaceable (a, b, c) =
+      [ (at, itemRegion b)
+        | isUnfit (elementRegion b),
+          OnCircle _ _ <- [carrier a],
+          OnLine _ <- [carrier b],
+          OnCircle _ _ <- [carrier c],
+          Just (at, Smooth) <- [link a],
+          Just (_, Smooth) <- [link b]
+      ]
+    changedBy replaced w
+      | any ((== itemRegion w) . snd) replaced = Nothing
+      | Just (at, _) <- link w, any ((== at) . fst) replaced = Just w {link = Just (at, Tangent)}
+      | otherwise = Just w
