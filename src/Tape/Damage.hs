@@ -138,9 +138,9 @@ explanation why = case why of
   NoFrames wanted -> ["A tape begins with " <> Decimal.whole wanted <> " blank rows." | wanted > 0]
   LeaderNotBlank wanted -> ["A tape begins with " <> Decimal.whole wanted <> " blank rows."]
   TrailerLength found wanted ->
-    [ "Behind the last frame stand "
+    [ "After the last frame there are "
         <> Decimal.whole found
-        <> " blank rows, and it should be "
+        <> " blank rows, and there should be "
         <> Decimal.whole wanted
         <> ": frames are missing, or the tape is torn."
     ]
@@ -151,41 +151,44 @@ explanation why = case why of
     ]
   _ -> []
 
--- | Hints below a report; the list is empty if the fault has many possible causes.
+-- | Hints below a report.
 remedy :: Reason -> [Text]
 remedy why = case why of
-  CutOff ->
-    ["The file is cut off: copy it again, or punch it anew with partc compile FILE."]
-  _ -> []
+  CutOff -> ["The file is cut off: copy it again, or punch it anew with partc compile."]
+  Misread -> []
+  _ ->
+    [ "If the tape is for another machine, name that machine with -t. Otherwise copy the file \
+      \again, or punch the tape anew with partc compile."
+    ]
 
 -- | Title of the report for a reason, without the row and the frame.
 reasonText :: Reason -> Text
 reasonText why = case why of
   LeaderNotBlank _ -> "the leader is not blank"
   NoFrames _ -> "the tape is empty or ends within its leader"
-  ShiftNotBlank -> "a hole in the blank rows before an even frame"
-  GapNotBlank -> "a hole in the gap behind the frame"
+  ShiftNotBlank -> "there is a hole in the blank rows before an even frame"
+  GapNotBlank -> "there is a hole in the gap after the frame"
   CutOff -> "the tape ends within a frame"
   MissingClosing text -> "the tape ends without ‘" <> Text.intercalate " " (Text.lines text) <> "’"
   TrailerLength _ _ -> "the end of the tape is not as it should be"
-  ForeignTrack -> "a hole outside the tracks of this tape"
+  ForeignTrack -> "there is a hole outside the tracks of this tape"
   BadParity -> "the number of holes is odd"
-  NoDigit tracks holes -> "the holes " <> binary tracks holes <> " are no digit"
-  NotADigit c -> RowMeaning.shown c <> " stands where a digit belongs"
-  NoSymbol tracks holes -> "the holes " <> binary tracks holes <> " are no symbol"
+  NoDigit tracks holes -> "the holes " <> binary tracks holes <> " are not a digit"
+  NotADigit c -> RowMeaning.shown c <> " is read where a digit belongs"
+  NoSymbol tracks holes -> "the holes " <> binary tracks holes <> " are not a symbol of its code"
   Unexpected found wanted ->
-    RowMeaning.shown found <> " stands where " <> RowMeaning.shown wanted <> " belongs"
-  NotBlank -> "a hole in a row that has to be blank"
+    RowMeaning.shown found <> " is read where " <> RowMeaning.shown wanted <> " belongs"
+  NotBlank -> "there is a hole in a row that has to be blank"
   Missing wanted -> RowMeaning.shown wanted <> " is missing"
   UnexpectedWord c ->
     "a word "
       <> RowMeaning.shown c
-      <> " can not stand here: it is out of order, there already, or none of this machine"
+      <> " cannot stand here: it is out of order, is given twice, or the machine does not have it"
   MarkerMissing -> "the frame marker is missing"
-  ServiceHole -> "a hole in the service track where there must be none"
+  ServiceHole -> "there is a hole in the service track, where none may be"
   NoSign -> "the number has no sign"
-  MinusZero -> "a minus on zero"
-  NoPriority d -> "the digit " <> Decimal.whole d <> " says no direction"
+  MinusZero -> "the number 0 has a minus sign"
+  NoPriority d -> "the digit " <> Decimal.whole d <> " does not give a direction"
   WrongPriority found wanted ->
     "the digit for direction and leading axis is "
       <> Decimal.whole found
@@ -199,30 +202,31 @@ reasonText why = case why of
   WrongNumber found wanted ->
     "the frame is numbered " <> Decimal.whole found <> " and should be " <> Decimal.whole wanted
   UnknownMotion n -> "the machine has no motion " <> Decimal.whole n
-  MotionWithoutIncrement -> "a motion that moves nothing"
-  IncrementWithoutMotion -> "the frame moves and does not say how"
-  UnknownFeedCode s -> "the machine has no speed " <> Decimal.whole s
-  FeedWithoutMotion s -> "the speed is " <> Decimal.whole s <> " but nothing moves at a speed"
-  MotionWithoutFeed -> "the frame moves but has no speed"
-  FeedRepeated s -> "the speed " <> Decimal.whole s <> " was said before"
-  NoContent -> "the frame moves nothing and commands nothing"
+  MotionWithoutIncrement -> "the frame has a motion code, but no increment"
+  IncrementWithoutMotion -> "the frame has an increment, but no motion code"
+  UnknownFeedCode s -> "the machine has no feed code " <> Decimal.whole s
+  FeedWithoutMotion s ->
+    "the feed code " <> Decimal.whole s <> " is given, but the frame does not move at a feed"
+  MotionWithoutFeed -> "the frame moves, but has no feed code"
+  FeedRepeated s ->
+    "the feed code " <> Decimal.whole s <> " is given again, although it is in force"
+  NoContent -> "the frame has neither a motion nor a command"
   BrokenRule broken -> ruleText broken
-  Misread -> "it is read as another than was punched"
-  WrittenOtherwise wanted -> "the machine writes this otherwise: here belongs " <> wanted
+  Misread -> "it is read back as another frame than the one that was punched"
+  WrittenOtherwise wanted -> "the machine would write this differently: " <> wanted
 
 -- | Title of the report about a broken rule, without the row and the frame.
 ruleText :: Violation -> Text
 ruleText broken = case broken of
-  OverCapacity {} -> "the move is longer than a frame can say"
-  TurnOverCapacity {} -> "the turn is longer than a frame can say"
-  BadCentre _ -> "the centre of the arc is none, or too far"
+  OverCapacity {} -> "the move is longer than a frame can hold"
+  TurnOverCapacity {} -> "the turn is longer than a frame can hold"
+  BadCentre _ -> "the arc has no centre, or one that is too far away"
   NoSuchFeedCode _ (FeedCode s) ->
-    "the machine has no speed " <> Decimal.whole s <> " for this motion"
+    "the machine has no feed code " <> Decimal.whole s <> " for this motion"
   NoSuchMotion _ ->
-    "the machine has no such motion: an arc that it can not go, or one that its distances \
-    \contradict"
-  UnknownCommand _ (CommandName o) -> "the machine has no such command " <> o
-  EmptyFrame _ -> "the frame moves nothing and commands nothing"
+    "the machine has no such motion: it cannot run this arc, or the distances contradict it"
+  UnknownCommand _ (CommandName o) -> "the machine has no command " <> o
+  EmptyFrame _ -> "the frame has neither a motion nor a command"
 
 -- | Holes as @tracks@ binary digits, the highest track first; 1 is a hole.
 binary :: Int -> Word8 -> Text

@@ -499,7 +499,7 @@ damage = do
   it "is reported with its row, its frame and its word" $
     Report.title
       (Punch.toReport (Damage 31 (Just 1) (Just (Machine.Along Machine.Y)) (NoDigit 5 2)))
-      `shouldBe` "row 31 (frame 1, y): the holes 00010 are no digit"
+      `shouldBe` "row 31 (frame 1, y): the holes 00010 are not a digit"
 
 -- | Frame with a check digit before it.
 withCheckDigit :: [Word8] -> [Word8]
