@@ -28,17 +28,12 @@ explained fits linked faults
   | any isMended mended = mended
   | Just lines' <- tangents fits (`elem` untouched) linked =
     TangentMeant (NonEmpty.head mended) lines' :| []
-  | any mayBeOrder faults,
-    Just (a, b) <- exchanged fits linked =
+  | Just (a, b) <- exchanged fits (concatMap unordered (NonEmpty.toList faults)) linked =
     OutOfOrder (NonEmpty.head mended) a b :| []
   | otherwise = mended
   where
     mended = fmap (withLargest fits linked) faults
-    untouched =
-      concat
-        [ [at | Located at _ <- [ContourError.before j, ContourError.after j]]
-          | NotLinked j (NotSmooth _ _) <- NonEmpty.toList faults
-        ]
+    untouched = concat [neighbours j | NotLinked j (NotSmooth _ _) <- NonEmpty.toList faults]
     -- A fillet of another radius or sense mends the fault, and is more likely.
     isMended f = case f of
       NotLinked _ (NoFillet _ _ (Just _) _) -> True
@@ -46,13 +41,15 @@ explained fits linked faults
       Overrun _ _ _ _ (Just _) -> True
       CrossesItself _ _ _ _ _ (Just _) -> True
       _ -> False
-    mayBeOrder f = case f of
-      NotLinked _ (ParallelLines _) -> True
-      NotLinked _ (NoMeeting _) -> True
-      NotLinked _ TurnsBack -> True
-      Overrun {} -> True
-      CrossesItself {} -> True
-      _ -> False
+    -- The elements of a fault that the order of elements may cause.
+    unordered f = case f of
+      NotLinked j (ParallelLines _) -> neighbours j
+      NotLinked j (NoMeeting _) -> neighbours j
+      NotLinked j TurnsBack -> neighbours j
+      Overrun at _ _ _ _ -> [at]
+      CrossesItself _ a b _ _ _ -> [a, b]
+      _ -> []
+    neighbours j = [at | Located at _ <- [ContourError.before j, ContourError.after j]]
 
 -- | If the fault may be caused by a fillet that is too large, adds the largest radius that fits.
 withLargest ::
@@ -86,25 +83,26 @@ withLargest fits linked fault = case fault of
           (NonEmpty.filter ((/= snd (ContourError.items j)) . itemRegion) linked)
 
 -- | Two neighbouring items in whose exchanged order the contour has no fault. @fits@ is true of
--- elements without a fault. Each item has to give one element. At most 'mostTried' pairs are tried.
+-- elements without a fault. One of the two has to be among the @suspected@ elements. Each item of
+-- the contour has to give one element.
 exchanged ::
-  (NonEmpty LinkedElement -> Bool) -> NonEmpty LinkedElement -> Maybe (Region, Region)
-exchanged fits linked
+  (NonEmpty LinkedElement -> Bool) ->
+  [Region] ->
+  NonEmpty LinkedElement ->
+  Maybe (Region, Region)
+exchanged fits suspected linked
   | length (nubOrd (map itemRegion elements)) < length elements = Nothing
   | otherwise =
     listToMaybe
       [ (itemRegion a, itemRegion b)
-        | n <- [0 .. min mostTried (length elements) - 2],
+        | (n, x, y) <- zip3 [0 ..] elements (drop 1 elements),
+          any ((`elem` suspected) . elementRegion) [x, y],
           (front, a : b : back) <- [splitAt n elements],
           Just changed <- [NonEmpty.nonEmpty (front <> (b : a : back))],
           fits changed
       ]
   where
     elements = NonEmpty.toList linked
-
--- | The largest number of exchanges that are tried.
-mostTried :: Int
-mostTried = 100
 
 -- | Lines between two circles, both joined to them by @smooth@, whose replacement by tangents
 -- leaves the contour without a fault: the region of the link before each line, and the item of the
