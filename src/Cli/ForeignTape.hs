@@ -14,7 +14,7 @@ import Base.Decimal qualified as Decimal
 import Base.PulseVector (Pulses3 (..))
 import Base.Region (Region (Region), Source)
 import Base.Region qualified as Region
-import Cli.TapeDifference (isTextFile, lineAround, textOf, withDifference)
+import Cli.TapeDifference (isOneChange, isTextFile, lineAround, textOf, withDifference)
 import Compile (Compiled, Punched (..))
 import Compile qualified
 import Data.ByteString qualified as ByteString
@@ -77,8 +77,11 @@ disproven compiled TapeFile {fileName, rows = given} frames source proof
     machine = Compile.machine compiled
     found = Proof.toReports machine proof
     base = Region.nextOffset source
+    -- The program's own tape is proven, so all findings follow from the first change.
     differing reports = case Report.sorted reports of
-      first : more -> withDifference compiled base given first : more
+      first : more
+        | isOneChange compiled given -> [withDifference compiled base given first]
+        | otherwise -> withDifference compiled base given first : more
       [] -> []
     withLine finding report =
       report

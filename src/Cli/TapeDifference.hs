@@ -2,6 +2,7 @@
 -- a text file, such as G-code, or a row of a punched tape.
 module Cli.TapeDifference
   ( withDifference,
+    isOneChange,
     isTextFile,
     textOf,
     lineAround,
@@ -67,6 +68,15 @@ withDifference compiled base given report
     isOnTape at = case at of
       InSource region -> start region >= base
       _ -> False
+
+-- | Test that a tape is a text file, and differs from the program's own tape in a few lines only.
+isOneChange :: Compiled -> Tape -> Bool
+isOneChange compiled given =
+  isTextFile (Compile.machine compiled)
+    && given /= own
+    && isFew (changedLines (Text.lines (textOf given)) (Text.lines (textOf own)))
+  where
+    Punched {tape = own} = Compile.punched compiled
 
 -- | Moves the place of a report to a label. The former place becomes another mark.
 pointedTo :: Label -> [Text] -> Report -> Report

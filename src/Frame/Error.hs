@@ -225,7 +225,7 @@ toReport machine err = case err of
                 ", "
                 [ machineName m
                   | m <- BuiltIn.machines,
-                    isJust (Machine.axisForm m axis)
+                    isJust (Machine.axisForm m axis) && axis `elem` Machine.drivenAxes m
                 ]
               <> "."
           ]

@@ -18,6 +18,7 @@ import Base.Name qualified as Name
 import Base.Quantity (Mm (..), Rad)
 import Base.Quantity qualified as Quantity
 import Base.Region (Region)
+import Data.List qualified as List
 import Data.Text (Text)
 import Data.Text qualified as Text
 import Machine.ControllerError (ControllerFault)
@@ -426,6 +427,7 @@ frameReport region fault = case fault of
       }
   where
     wrong = at region "E1012"
+    tenth n = Decimal.exact (10 ^^ negate (n :: Int))
     notDecimal decimals pulse unit =
       (wrong ("the last decimal is not a pulse of " <> pulse <> " " <> unit))
         { message =
@@ -433,14 +435,19 @@ frameReport region fault = case fault of
                 <> ", so its last decimal has to be the pulse of its axis."
             ],
           hints =
-            [ "With "
-                <> Decimal.whole decimals
-                <> " decimals the pulse is "
-                <> Decimal.exact (10 ^^ negate decimals)
-                <> " "
-                <> unit
+            [ "Write decimals "
+                <> Decimal.whole wanted
                 <> "."
+              | Just wanted <- [List.elemIndex pulse (map tenth [0 .. 9])]
             ]
+              <> [ "With "
+                     <> Decimal.whole decimals
+                     <> " decimals the pulse is "
+                     <> Decimal.exact (10 ^^ negate decimals)
+                     <> " "
+                     <> unit
+                     <> "."
+                 ]
         }
 
 tableReport :: Region -> TableFault -> Report

@@ -127,7 +127,7 @@ toReport arguments fault = case fault of
      in (at region "E0335" ("there is no such " <> result))
           { message = [why],
             fixes = limitFixes arguments reason,
-            hints = ["Correct the numbers." | null (limitFixes arguments reason)]
+            hints = [remedyText reason | null (limitFixes arguments reason)]
           }
   NotTouching region gap points ->
     (at region "E0336" ("these do not touch: they miss it by " <> Decimal.mm gap))
@@ -267,6 +267,19 @@ noAnswerTexts reason = case reason of
       "The curve runs from x = " <> Decimal.mm low <> " to x = " <> Decimal.mm high <> "."
     )
   BeyondLength l -> ("point", "The curve is " <> Decimal.mm l <> " long.")
+
+-- | The sentence of a report that says how there would be an answer.
+remedyText :: NoAnswer -> Text
+remedyText reason = case reason of
+  NoTangent _ (PointInside depth) ->
+    "Move the point outwards by at least " <> Decimal.mm depth <> ", or take a smaller circle."
+  NoTangent _ (CirclesOverlap overlap) ->
+    "Move the circles apart by more than "
+      <> Decimal.mm overlap
+      <> ", or take smaller ones, or the tangent on the same side of both."
+  NoTangent _ CircleInCircle -> "Correct the centre or the radius of one of them."
+  NothingTouches _ -> "Correct the size, or the sides."
+  _ -> "Correct the numbers."
 
 -- | The sentence of a report that explains why there is no common tangent.
 obstacleText :: TangentObstacle -> Text

@@ -72,6 +72,9 @@ data ContourFault
     -- when fillets get the other sense, the last field has these fillets. The report points at the
     -- first of the two elements
     CrossesItself Region Region Region Point Bool (Maybe FittingFillets)
+  | -- | a contour that meets itself only because it is open: the region of the word @open@, and the
+    -- fault
+    ClosedMeant Region ContourFault
   | -- | a fault that ends when two neighbouring items of the contour change places
     OutOfOrder ContourFault Region Region
   | -- | lines that do not touch the circles that they join, while tangents join these circles: the
@@ -146,12 +149,19 @@ toReport fault = case fault of
   NotLinked neighbours linkFault -> LinkError.toReport neighbours linkFault
   NotLinkedOften neighbours linkFault edges -> LinkError.repeatedReport neighbours edges linkFault
   Overrun region carrier overlap links largest -> overrunReport region carrier overlap links largest
+  ClosedMeant word inner ->
+    let r = toReport inner
+     in (at word "E0325" "the open contour ends at the point where it begins")
+          { others = [l | l@(Label region _) <- others r, region /= word],
+            fixes = [closedFix word]
+          }
   OutOfOrder inner first second ->
     let r = toReport inner
      in r
           { others = [Label first "exchange this", Label second "with this"],
             fixes =
               Fix.proposed (Fix.swap exchange first second) : fixes r,
+            message = [],
             hints = []
           }
     where
@@ -159,7 +169,8 @@ toReport fault = case fault of
   TangentMeant inner lines' ->
     let title = "Join the circles by a tangent: write tangent in place of smooth and the line."
      in (toReport inner)
-          { hints = [],
+          { message = [],
+            hints = [],
             fixes =
               [ Fix.proposed . Fix.joined title $
                   concat

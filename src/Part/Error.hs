@@ -295,7 +295,11 @@ wrongCutterReport (Region begin _) statement kind =
     { message = ["The tool is " <> tool <> "."],
       fixes =
         [ Fix.proposed
-            (Fix.insertion ("Change the tool first: " <> change <> ".") begin (change <> "\n"))
+            ( Fix.insertion
+                ("Change the tool first, for example: " <> change <> ".")
+                begin
+                (change <> "\n")
+            )
         ]
     }
   where

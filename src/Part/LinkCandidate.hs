@@ -175,7 +175,7 @@ smooth j = case shapes j of
 -- their directions is 90° or more.
 smoothLines :: Neighbours -> Line -> Line -> Either ContourFault Joint
 smoothLines j l m
-  | Vec.dot (Carrier.direction l) (Carrier.direction m) <= 0 = Left (NotLinked j TurnsBack)
+  | Vec.dot (Carrier.direction l) (Carrier.direction m) <= 0 = Left (NotLinked j (TurnsBack []))
   | otherwise = case Intersection.lines l m of
     Same | Vec.isNear (Carrier.to l) (Carrier.from m) -> Right (through (Carrier.to l))
     Same -> Right (through (Carrier.from m))
@@ -190,7 +190,7 @@ smoothEnds :: Neighbours -> (Point, Vec) -> (Point, Vec) -> Either ContourFault 
 smoothEnds j (p, u) (q, v)
   | Vec.distance p q > Tolerance.smoothGap =
     Left (NotLinked j (NotSmooth (Vec.distance p q) Nothing))
-  | abs angle > pi / 2 = Left (NotLinked j TurnsBack)
+  | abs angle > pi / 2 = Left (NotLinked j (TurnsBack []))
   | abs angle > allowed = Left (NotLinked j (Kinked (Rad (abs angle)) False))
   | otherwise = Right (Joint p q Nothing)
   where
@@ -214,7 +214,7 @@ facing carrier p = case carrier of
 smoothLineCircle :: Neighbours -> Line -> Sense -> Circle -> Either ContourFault Joint
 smoothLineCircle j l sense (Circle c (Mm r))
   | abs (abs h - r) <= tolerance && signum h /= Carrier.senseSign sense =
-    Left (NotLinked j TurnsBack)
+    Left (NotLinked j (TurnsBack []))
   | otherwise = touching j (abs h - r) (Carrier.foot l c)
   where
     Mm h = Carrier.signedDistance l c
@@ -226,7 +226,7 @@ smoothCircles :: Neighbours -> (Sense, Circle) -> (Sense, Circle) -> Either Cont
 smoothCircles j (s, Circle c (Mm r)) (t, Circle d (Mm q))
   | distance <= tolerance = Left (NotLinked j (SameCurve False))
   | s == t && outerGap <= tolerance || s /= t && innerGap <= tolerance =
-    Left (NotLinked j TurnsBack)
+    Left (NotLinked j (TurnsBack []))
   | s == t = touching j innerGap (towards (if r >= q then r else -r))
   | otherwise = touching j outerGap (towards r)
   where

@@ -10,6 +10,7 @@ module Part.LinkError
     repeatedReport,
     largestFix,
     turnedFix,
+    turnable,
   )
 where
 
@@ -63,8 +64,9 @@ data LinkFault
   | -- | the neighbours of a smooth link touch at a corner: the angle between their directions, and
     -- true if the contour has no fault without this link
     Kinked Rad Bool
-  | -- | the neighbours of a smooth link touch, but their directions there are opposite
-    TurnsBack
+  | -- | the neighbours of a smooth link touch, but their directions there are opposite: the
+    -- regions of the circles whose other sense leaves the contour without a fault
+    TurnsBack [Region]
   | TangentNeedsCircles
   | ConcentricTangent
   | -- | the neighbours of a tangent are the same circle: true if the contour has no fault without
@@ -129,10 +131,19 @@ toReport j fault = case fault of
           ]
       }
   Kinked angle isEnough -> kinkedReport j angle isEnough
-  TurnsBack ->
+  TurnsBack mending ->
     (titled "E0316" "the elements touch here, but the contour would have to turn back")
-      { fixes = map senseFix (turnable j),
-        hints = ["Change the sense (cw, ccw) of a circle or the direction of a line."]
+      { message = sideText j,
+        fixes =
+          [ senseFix (word, sense, c)
+            | (at', word, sense, c) <- turnable j,
+              at' `elem` mending
+          ],
+        hints =
+          [ "Turn the line round, let it touch the circle on the other side, or change the sense \
+            \of the circle."
+            | null mending
+          ]
       }
   TangentNeedsCircles -> repeatedReport (j :| []) [] fault
   ConcentricTangent ->
@@ -302,6 +313,24 @@ touchText j = case (value (before j), value (after j)) of
         | r > Mm 0
       ]
 
+-- | The sentence that says on which side of a line a circle lies, and on which it would have to
+-- lie. Empty for other neighbours.
+sideText :: Neighbours -> [Text]
+sideText j = case (value (before j), value (after j)) of
+  (OnLine _, OnCircle sense _) -> text sense
+  (OnCircle sense _, OnLine _) -> text sense
+  _ -> []
+  where
+    text sense =
+      [ "A line joins a circle that is traversed "
+          <> (if sense == Clockwise then "clockwise" else "counter-clockwise")
+          <> " smoothly if it has the circle on its "
+          <> (if sense == Clockwise then "right" else "left")
+          <> ". This line has it on its "
+          <> (if sense == Clockwise then "left" else "right")
+          <> "."
+      ]
+
 -- | An error that points at a link and labels its two neighbours.
 linkTitle :: Neighbours -> ReportCode -> Text -> Report
 linkTitle j code title =
@@ -408,12 +437,12 @@ leaveOutSecond j =
     | uncurry (/=) (items j)
   ]
 
--- | The words for a sense that a contour writes before a circle, each with its region and its
--- circle.
-turnable :: Neighbours -> [(Region, Sense, Circle)]
+-- | The circles of which a contour writes the sense: the region of the circle, that of the word,
+-- the sense and the circle.
+turnable :: Neighbours -> [(Region, Region, Sense, Circle)]
 turnable j =
-  [ (word, sense, c)
-    | (item, located@(Located _ (OnCircle sense c))) <-
+  [ (at', word, sense, c)
+    | (item, located@(Located at' (OnCircle sense c))) <-
         [(fst (items j), before j), (snd (items j), after j)],
       Just word <- [senseRegion item located]
   ]

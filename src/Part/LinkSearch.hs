@@ -10,21 +10,30 @@ import Data.Containers.ListUtils (nubOrd)
 import Data.List.NonEmpty (NonEmpty (..))
 import Data.List.NonEmpty qualified as NonEmpty
 import Data.Maybe (listToMaybe, mapMaybe)
+import Geometry.Carrier (Sense (..))
 import Geometry.ElementCarrier (ElementCarrier (..))
+import Geometry.Vec qualified as Vec
 import Part.ContourError (ContourFault (..), LinkFault (..))
 import Part.ContourError qualified as ContourError
 import Part.FilletSearch qualified as FilletSearch
 import Part.Link (Link (..))
 import Part.LinkElement (LinkedElement (..))
+import Part.LinkError qualified as LinkError
 
 -- | The faults of a contour with changes that mend it. If another order of two items mends it, or
 -- tangents in place of lines, the result is one fault. @fits@ is true of elements without a fault.
+-- @isMeantClosed@ is the region of the word @open@ of a contour that has no fault if it is closed.
 explained ::
   (NonEmpty LinkedElement -> Bool) ->
+  Maybe Region ->
   NonEmpty LinkedElement ->
   NonEmpty ContourFault ->
   NonEmpty ContourFault
-explained fits linked faults
+explained fits isMeantClosed linked faults
+  | Just word <- isMeantClosed,
+    first@(CrossesItself _ _ _ p _ _) : _ <- NonEmpty.toList faults,
+    any (Vec.isNear p) (ownStart (NonEmpty.head linked)) =
+    ClosedMeant word first :| []
   | any isMended mended = mended
   | Just lines' <- tangents fits (`elem` untouched) linked =
     TangentMeant (NonEmpty.head mended) lines' :| []
@@ -45,7 +54,7 @@ explained fits linked faults
     unordered f = case f of
       NotLinked j (ParallelLines _) -> neighbours j
       NotLinked j (NoMeeting _) -> neighbours j
-      NotLinked j TurnsBack -> neighbours j
+      NotLinked j (TurnsBack []) -> neighbours j
       Overrun at _ _ _ _ -> [at]
       CrossesItself _ a b _ _ _ -> [a, b]
       _ -> []
@@ -66,6 +75,9 @@ withLargest fits linked fault = case fault of
       )
   NotLinked j (NotSmooth gap _) ->
     NotLinked j (NotSmooth gap (FilletSearch.inPlaceOf fits linked (ContourError.link j)))
+  NotLinked j (TurnsBack _) ->
+    let circles = [at | (at, _, _, _) <- LinkError.turnable j]
+     in NotLinked j (TurnsBack (filter (\at -> fits (fmap (turnedAt at) linked)) circles))
   NotLinked j (Kinked angle _) -> NotLinked j (Kinked angle (fits (withoutLink j)))
   NotLinked j (SameCurve _) -> NotLinked j (SameCurve (leavingOutMends j))
   NotLinked j (CoincidentTangent _) -> NotLinked j (CoincidentTangent (leavingOutMends j))
@@ -77,6 +89,11 @@ withLargest fits linked fault = case fault of
   where
     withoutLink j = fmap (unlinkedFrom (ContourError.link j)) linked
     unlinkedFrom at w = if fmap fst (link w) == Just at then w {link = Nothing} else w
+    turnedAt at w = case carrier w of
+      OnCircle sense c
+        | elementRegion w == at ->
+          w {carrier = OnCircle (case sense of Clockwise -> CounterClockwise; _ -> Clockwise) c}
+      _ -> w
     leavingOutMends j =
       maybe False fits $
         NonEmpty.nonEmpty

@@ -65,8 +65,14 @@ solve region ends linked = case attempt region ends linked of
   Right elements -> Right elements
   Left found ->
     let faults = fromMaybe (found :| []) (NonEmpty.nonEmpty (unlinked (value ends) linked))
-        fits changed = either (const False) (const True) (attempt region ends changed)
-     in Left (LinkSearch.explained fits linked (withoutRepetition (value ends) linked faults))
+        succeeds as changed = either (const False) (const True) (attempt region as changed)
+        fits = succeeds ends
+        isMeantClosed =
+          case ends of
+            Located word Open | succeeds ends {value = Closed} linked -> Just word
+            _ -> Nothing
+        distinct = withoutRepetition (value ends) linked faults
+     in Left (LinkSearch.explained fits isMeantClosed linked distinct)
 
 -- | The faults of the links that cannot join their neighbours. A repetition can make several links
 -- with one region, or between elements of the same two regions. Of the faults of such links, only

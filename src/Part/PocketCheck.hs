@@ -44,7 +44,9 @@ misfits outline islands = case filter isOpen numbered of
     boxes = BoxTree.index (boxOf . snd) (drop 1 numbered)
     meetings = nubBy (\(i, j, _) (k, l, _) -> (i, j) == (k, l)) (crossings numbered)
     meets (i, j, p) =
-      let (a, b) = (named j, named i) in Meets (mention a) (nameOf a) (nameOf b) (i == 0) p
+      let (a, b) = (named j, named i)
+          places = (definition a, definition b)
+       in Meets (mention a) (nameOf a) (nameOf b) places (i == 0) p
     named i = (outline : islands) !! i
     -- An island that meets another contour is already reported as meeting it.
     apart = [(k, n) | (k, n) <- drop 1 numbered, k `notElem` met]

@@ -25,8 +25,9 @@ data PocketMisfit
   | -- | an island that lies inside another island: the names of the inner and of the outer island
     InIsland Region Name Name
   | -- | an island that crosses or touches another contour: the names of the island and of that
-    -- contour, true if that contour is the outline, and a common point
-    Meets Region Name Name Bool Point
+    -- contour, the regions of their definitions, true if that contour is the outline, and a common
+    -- point
+    Meets Region Name Name (Region, Region) Bool Point
   | -- | a stepover that exceeds the diameter of the cutter: the stepover, and the diameter
     StepTooWide Region Mm Mm
   deriving stock (Eq, Show)
@@ -53,9 +54,10 @@ toReport misfit = case misfit of
       { message = ["All of " <> quote other <> " stays standing already."],
         hints = ["Leave one of them out. A hollow in an island is a pocket of its own."]
       }
-  Meets region (Name name) (Name outline) True p ->
+  Meets region (Name name) (Name outline) (island, there) True p ->
     (at region "E0358" ("the island " <> quote name <> " meets the outline of the pocket"))
-      { message =
+      { others = [Label island "the island", Label there "the outline"],
+        message =
           [ "They cross or touch at "
               <> Vec.toText 4 p
               <> "; the outline is "
@@ -68,9 +70,10 @@ toReport misfit = case misfit of
               <> ". Or, if it is to be joined to the wall, draw the outline round it."
           ]
       }
-  Meets region (Name name) (Name other) False p ->
+  Meets region (Name name) (Name other) (first, second) False p ->
     (at region "E0358" ("the island " <> quote name <> " meets the island " <> quote other))
-      { message = ["They cross or touch at " <> Vec.toText 4 p <> "."],
+      { others = [Label r "this island" | r <- [first, second]],
+        message = ["They cross or touch at " <> Vec.toText 4 p <> "."],
         hints =
           [ "Correct the place or the size of one of them. Or draw islands that grow together as \
             \one contour."

@@ -11,7 +11,8 @@ import Base.Decimal qualified as Decimal
 import Base.Name qualified as Name
 import Base.Region (Position (..), Region)
 import Base.Region qualified as Region
-import Data.List (nub)
+import Data.Function (on)
+import Data.List (nub, nubBy)
 import Data.Text (Text)
 import Data.Text qualified as Text
 import Project.MachineDescription qualified as MachineDescription
@@ -106,9 +107,13 @@ reportWith option err = case err of
         (maybe InCommandLine InSource place)
         ("the machine’s description ‘" <> file <> "’ has mistakes")
     )
-      { message = [inOneLine file text r | r <- Report.sorted reports],
-        hints = nub (concatMap Report.remedies (Report.sorted reports))
+      { message =
+          map (inOneLine file text) shown
+            <> ["The same is wrong at more places." | length shown < length reports],
+        hints = nub (concatMap Report.remedies shown)
       }
+    where
+      shown = nubBy ((==) `on` title) (Report.sorted reports)
   NothingToPunch ->
     (wrong "E0808" InFile "the program moves nothing, so there is no tape to punch")
       { hints =

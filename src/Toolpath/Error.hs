@@ -216,6 +216,9 @@ toReport err = case err of
           [ "Or write the edges as lines, line(p, q), and round the corner: fillet and a radius."
             | not mayRound
           ]
+            <> [ "Or take a smaller cutter, and round the corner with a fillet of its radius."
+                 | mayRound && null (ErrorFix.filletFixes tool first second)
+               ]
       }
   Collision region tool first second p largest ->
     ( at
