@@ -4,6 +4,8 @@
 -- revolution or per second.
 module Checked.ArithmeticReport
   ( unitDivisors,
+    bareCoordinatesReport,
+    radiansReport,
     pointsAddedReport,
     unknownUnitReport,
   )
@@ -33,6 +35,21 @@ secondWords, revolutionWords, toothWords :: [Text]
 secondWords = Text.words "s sec second seconds"
 revolutionWords = Text.words "rev revolution turn r u об"
 toothWords = Text.words "tooth t z flute teeth"
+
+-- | The report of the coordinates of a point without its brackets.
+bareCoordinatesReport :: Region -> Report
+bareCoordinatesReport region =
+  (at region "E0205" "the coordinates of a point are in brackets")
+    { fixes = [Fix.enclosure "Write the point in brackets: (x, y)." "(" region ")"]
+    }
+
+-- | The report of a number of radians without a unit, which would be taken for degrees.
+radiansReport :: Region -> Report
+radiansReport region =
+  (at region "E0205" "this number of radians is taken for degrees, since it has no unit")
+    { label = "without a unit, an angle is in degrees",
+      fixes = [Fix.enclosure "Write it in radians: (…) * 1 rad." "(" region ") * 1 rad"]
+    }
 
 -- | The report of a sum of points.
 pointsAddedReport :: Region -> Region -> Region -> Maybe Region -> Report

@@ -17,7 +17,7 @@ import Base.Decimal qualified as Decimal
 import Base.Name (Name (..))
 import Base.Name qualified as Name
 import Base.Region (Region (..))
-import Checked.ArithmeticReport (pointsAddedReport, unknownUnitReport)
+import Checked.ArithmeticReport
 import Checked.ErrorFix (WrittenTerm)
 import Checked.ErrorFix qualified as ErrorFix
 import Checked.NameMeaning qualified as NameMeaning
@@ -68,6 +68,8 @@ data Error
   | -- | a feed whose unit the language does not have: its number, the unit of its length, the word
     -- after the stroke, and speeds of the spindle in turns per minute
     UnknownUnit Region Numeral Unit Text [Double]
+  | -- | the coordinates of a point without its brackets
+    BareCoordinates Region
   | -- | a number with pi that is used as an angle without a unit
     RadiansWithoutUnit Region
   | -- | a definition of a name that belongs to the language: the name, facts about its definition,
@@ -211,11 +213,8 @@ toReport err = case err of
       }
   PointsAdded region left right half -> pointsAddedReport region left right half
   UnknownUnit region n unit word speeds -> unknownUnitReport region n unit word speeds
-  RadiansWithoutUnit region ->
-    (at region "E0205" "this number of radians is taken for degrees, since it has no unit")
-      { label = "without a unit, an angle is in degrees",
-        fixes = [Fix.enclosure "Write it in radians: (…) * 1 rad." "(" region ") * 1 rad"]
-      }
+  BareCoordinates region -> bareCoordinatesReport region
+  RadiansWithoutUnit region -> radiansReport region
   DefinedTwice region (Name name) before again uses ->
     (at region "E0203" (quote name <> " is defined twice"))
       { label = "defined again here",

@@ -32,7 +32,7 @@ complete :: [Statement] -> [Error] -> [Error]
 complete statements errors = case errors of
   [] -> []
   _ ->
-    oncePerSum . map (completed statements) . oncePerName $
+    oncePerSum . map (completed statements) . oncePerPoint statements . oncePerName $
       besideElements statements (filter (not . isLost) errors)
   where
     -- The name of a definition that cannot be parsed is unknown, and may be any that is missing.
@@ -47,6 +47,31 @@ complete statements errors = case errors of
               concatMap SyntaxWalk.statementsIn statements,
             fromMaybe "let" keyword `elem` ["let", "param", "contour", "table", "curve", "piece"]
         ]
+
+-- | The errors of which the numbers of one point without its brackets are one.
+oncePerPoint :: [Statement] -> [Error] -> [Error]
+oncePerPoint statements errors = case errors of
+  [] -> []
+  e : rest -> case spanNumbers e rest of
+    (r : _, others)
+      | Just first <- number e ->
+        BareCoordinates (Region (start first) (end r)) : oncePerPoint statements others
+    _ -> e : oncePerPoint statements rest
+  where
+    number e = case e of
+      Mismatch r wanted (Type.Quantity _) _ _
+        | wanted == Type.aPoint && not (any (contains r) pieces) -> Just r
+      _ -> Nothing
+    -- The values of a cipher are separate.
+    pieces = [region s | s@(Located _ (Piece {})) <- concatMap SyntaxWalk.statementsIn statements]
+    -- The regions of the numbers after the first, the last one first, and the other errors.
+    spanNumbers e rest = case (number e, rest) of
+      (Just r, next : more)
+        | Just r' <- number next,
+          start r' > end r,
+          start r' <= end r + 2 ->
+          let (others, left) = spanNumbers next more in (others <> [r'], left)
+      _ -> ([], rest)
 
 -- | The errors without those that report a sum of points again. The one that knows the whole
 -- calculation is kept.
@@ -73,6 +98,10 @@ besideElements statements errors = mapMaybe joined errors
         | next : _ <- [r | NotAnElement r _ _ <- errors, isNext at r] ->
           Just (UnknownLink at name next (if isElement at then filter (`elem` links) known else []))
         | not (isElement at) -> Just (UndefinedName at name (filter (`notElem` links) known) [])
+      UndefinedName at name known _
+        | next : _ <- [r | SenseMissing r <- errors, isNext at r] ->
+          Just (UnknownLink at name next (filter (`elem` ["cw", "ccw"]) known))
+      SenseMissing r | or [isNext at r | UndefinedName at _ _ _ <- errors] -> Nothing
       NotAnElement r _ _ | or [isNext at r | UndefinedName at _ _ _ <- errors] -> Nothing
       _ -> Just e
     isNext at r = start r > end at && start r <= end at + 3

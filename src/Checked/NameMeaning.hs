@@ -59,7 +59,7 @@ meanings name = [new | (new, olds) <- table, Text.toLower name `elem` Text.words
         ("false", "no")
       ]
 
--- | The words of links that an unknown name in a contour may mean.
+-- | The words of links and senses that an unknown name in a contour may mean.
 linksMeant :: Text -> [Text]
 linksMeant name = [new | (new, olds) <- table, Text.toLower name `elem` Text.words olds]
   where
@@ -68,7 +68,9 @@ linksMeant name = [new | (new, olds) <- table, Text.toLower name `elem` Text.wor
         ("chamfer", "cham bevelled c"),
         ("tangent", "tangential"),
         ("smooth", "smoothly"),
-        ("feed", "f feedrate speed")
+        ("feed", "f feedrate speed"),
+        ("cw", "clockwise cwise"),
+        ("ccw", "counterclockwise anticlockwise acw")
       ]
 
 -- | The way in which the language says what a function of another language computes. 'Nothing' for

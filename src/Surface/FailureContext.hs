@@ -128,7 +128,7 @@ closingOf ts k = go (0 :: Int) (zip [k ..] (drop k ts))
 
 -- | True if the first word of a setting would be right at the wrong token.
 isSettingStart :: Failing -> Bool
-isSettingStart f = "plunge" `elem` wanted f || "peck" `elem` wanted f
+isSettingStart f = any (`elem` wanted f) ["plunge", "peck", "retract"]
 
 -- | True if the keyword of a statement would be right at the wrong token.
 isStatementStart :: Failing -> Bool

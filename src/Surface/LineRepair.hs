@@ -144,21 +144,38 @@ machineNames f t =
 -- | The modifiers of an element after its link, moved before it.
 modifiers :: Failing -> Token -> [RepairCandidate]
 modifiers f t =
+  paces f t
+    <> [ RepairCandidate
+           (Copy from k to False : map Delete [k .. to - 1])
+           1
+           (moved to from)
+         | shape t `elem` map Word ["slow", "feed", "allowance", "bevel"],
+           from <-
+             take
+               1
+               [ n
+                 | n <- lineOf f,
+                   n < k,
+                   Just x <- [at f n],
+                   shape x `elem` map Word ["fillet", "chamfer", "tangent", "smooth", "meet"]
+               ],
+           to <- [lineEnd f]
+       ]
+  where
+    moved to from =
+      "Write " <> quote (written (slice k to f)) <> " before " <> quote (written (slice from k f))
+    k = index f
+
+-- | The pace of a motion before its point, moved after it.
+paces :: Failing -> Token -> [RepairCandidate]
+paces f t =
   [ RepairCandidate
-      (Copy from k to False : map Delete [k .. to - 1])
-      1
-      ("Write " <> quote (written (slice k to f)) <> " before " <> quote (written (slice from k f)))
-    | shape t `elem` map Word ["slow", "feed", "allowance", "bevel"],
-      from <-
-        take
-          1
-          [ n
-            | n <- lineOf f,
-              n < k,
-              Just x <- [at f n],
-              shape x `elem` map Word ["fillet", "chamfer", "tangent", "smooth", "meet"]
-          ],
-      to <- [lineEnd f]
+      [Insert (lineEnd f) True [Word "rapid"], Exchange k []]
+      0
+      "Write ‘rapid’ after the point"
+    | isValueWanted f,
+      shape t == Word "rapid",
+      k + 1 < lineEnd f
   ]
   where
     k = index f

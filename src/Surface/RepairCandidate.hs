@@ -182,7 +182,7 @@ signs :: Failing -> Token -> [RepairCandidate]
 signs f t =
   [ RepairCandidate
       [Exchange k []]
-      (if shape t == Symbol ">" then 4 else 1)
+      costOf
       ( if shape t == Symbol "-" && attached t
           then "Write two words, without ‘-’"
           else "Leave " <> quote (spelling (shape t)) <> " out"
@@ -202,6 +202,10 @@ signs f t =
        ]
   where
     k = index f
+    costOf
+      | shape t == Symbol ">" = 4
+      | shape t `elem` map Symbol ["(", "["], Just _ <- closingOf (tokens f) k = 6
+      | otherwise = 1
     same = [n | n <- lineOf f, (shape <$> at f n) == Just (shape t)]
 
 -- | The statement without what follows a complete list of arguments at a comma, or without the
@@ -241,7 +245,7 @@ fillerBefore f =
   where
     k = index f
     costOf word
-      | word `elem` typeWords = 1
+      | word `elem` typeWords || word `elem` ["to", "at", "return"] = 1
       | (shape <$> at f (k - 2)) `elem` map (Just . Symbol) ["(", ","] = 0
       | otherwise = 3
 
@@ -274,6 +278,7 @@ moves f =
            3
            ("Write " <> quote (written (slice (k + 1) to f)) <> " first")
          | isValueWanted f || isNameWanted f,
+           Just (Word _) <- [shape <$> at f k],
            to <- [k + 2, segmentEnd f (k + 1)],
            to > k + 1,
            to <= lineEnd f

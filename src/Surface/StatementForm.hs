@@ -87,7 +87,7 @@ settingTitle :: Token_ -> [Text] -> TokenContext -> Maybe Text
 settingTitle token expected around
   | isElement && isLineStart around = Just (describe token <> " begins no element of a contour")
   | isElement = Just ("the element is complete before " <> describe token)
-  | not (any (`elem` expected) [quote "plunge", quote "peck"]) = Nothing
+  | not (any ((`elem` expected) . quote) ["plunge", "peck", "retract"]) = Nothing
   | isLineStart around = Just (describe token <> " is no setting of " <> quote (blockWord around))
   | Just word <- settingBefore =
     Just ("the setting " <> quote word <> " is complete before " <> describe token)

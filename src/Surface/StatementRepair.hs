@@ -253,7 +253,10 @@ nextStates s index expected =
       Failing
         { tokens = now s,
           index,
-          wanted = [Text.dropAround (`elem` ("‘’" :: String)) w | w <- expected, isQuoted w],
+          wanted =
+            sortOn
+              (`notElem` ["outside", "closed", "line"])
+              [Text.dropAround (`elem` ("‘’" :: String)) w | w <- expected, isQuoted w],
           isValueWanted = "a value" `elem` expected,
           isNameWanted = "a name" `elem` expected
         }

@@ -86,7 +86,7 @@ fillers =
     "at of by is with side to the a an set tool number no nr as on contour milling mode and radius \
     \value speed each every all then do direction point points distance feed let from for length \
     \tolerance cutting name named equal equals only use be size \
-    \rate z height rpm mm"
+    \rate z height rpm mm to return"
 
 -- | Words that say of which type a value is.
 typeWords :: [Text]
@@ -121,7 +121,7 @@ statementMeant word = lookup (Text.toLower word) table
               ("coolant off", "m9 m09"),
               ("spindle off", "m5 m05"),
               ("assert", "check ensure require"),
-              ("let", "define constant variable set def " <> Text.unwords typeWords),
+              ("let", "define constant set def function func fn " <> Text.unwords typeWords),
               ("param", "parameter input arg"),
               ("table", "data"),
               ("for", "foreach loop repeat")
