@@ -29,6 +29,8 @@ module Compile
   )
 where
 
+import Base.Region (Position (..), Source)
+import Base.Region qualified as Region
 import Base.Result
   ( Result (..),
     failed,
@@ -44,6 +46,7 @@ import Checked.FromSurface qualified as Checked
 import Checked.Syntax qualified as Checked
 import Control.CompensationCheck qualified as CompensationCheck
 import Control.Monad (when)
+import Data.Set qualified as Set
 import Data.Text (Text)
 import Frame.Error qualified as Frame
 import Frame.Frame (FrameProgram)
@@ -56,12 +59,12 @@ import Part.FromChecked qualified as Part
 import Part.Part (Part)
 import Project.Error qualified as Project
 import Project.Job (Job (..), Verification (..))
-import Project.LoadedProgram (LoadedProgram (isSheet, surface))
+import Project.LoadedProgram (LoadedProgram (isSheet, source, surface))
 import Pulse.Controller (Console (..))
 import Pulse.Controller qualified as Controller
 import Pulse.FrameCompensation qualified as FrameCompensation
 import Pulse.ReaderDwell qualified as ReaderDwell
-import Report.Report (Report)
+import Report.Report (Report (code, others), ReportPlace (..))
 import Report.Report qualified as Report
 import Surface.Error qualified as Surface
 import Surface.Parameter qualified as Surface
@@ -95,13 +98,34 @@ evaluate values loaded = do
   written <- surface loaded
   assigned <- mapErrors id Surface.toReport (Surface.assign values written)
   let located = Surface.inAssignment values written
-  checked <- mapErrors id (located . Checked.toReport) (Checked.check assigned)
+  checked <-
+    withoutEchoes (source loaded) (errors (surface loaded)) $
+      mapErrors id (located . Checked.toReport) (Checked.check assigned)
   (checked,) <$> mapErrors id (located . partReport) (Part.evaluate checked)
   where
     -- Only users of input sheets know the control stops of the Minsk-22 system.
     partReport
       | isSheet loaded = Report.withControlStop . Part.toReport
       | otherwise = Part.toReport
+
+-- | A result without the errors on lines of the program that cannot be parsed, of which the given
+-- reports are: on such a line, words are taken for names that are none.
+withoutEchoes :: Source -> [Report] -> Result w Report a -> Result w Report a
+withoutEchoes source before result
+  | null before = result
+  | otherwise = result {errors = filter (not . isEcho) (errors result)}
+  where
+    -- A missing setting does not depend on the words of the line.
+    isEcho r =
+      code r /= "E0217"
+        && or [Set.member (lineOf region) unread | InSource region <- [Report.place r]]
+    unread =
+      Set.fromList
+        [ lineOf region
+          | r <- before,
+            region <- [region | InSource region <- [Report.place r]] <> map Report.region (others r)
+        ]
+    lineOf region = let p = Region.position source (Region.start region) in (file p, line p)
 
 -- | The results that do not depend on a machine: the mentions of names in the program (for
 -- editors), the part, and the toolpath.

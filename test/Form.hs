@@ -227,6 +227,9 @@ longFunctions =
         "Verify.Proof.toReport"
       ]
       <> because
+        "a table of words"
+        ["Checked.NameMeaning.meanings", "Surface.WordMeaning.meanings"]
+      <> because
         "one arm per constructor; the longer arms are functions of their own"
         [ "Checked.Expression.inferred",
           "Checked.FromSurface.statement",

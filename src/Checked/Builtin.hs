@@ -20,6 +20,7 @@ module Checked.Builtin
     formText,
     description,
     formTexts,
+    formsForReports,
     callText,
   )
 where
@@ -406,8 +407,11 @@ description builtin = "of the language: " <> Text.intercalate "; " (take 4 (form
 -- | All forms of a function as calls with the names of their parameters, without repetitions.
 formTexts :: Builtin -> [Text]
 formTexts builtin =
-  nubOrd
-    (map (formText builtin) (forms Fresh {dimension = Dimension.none, anything = Wrong} builtin))
+  nubOrd (map (formText builtin) (formsForReports builtin))
+
+-- | All forms of a function, with a type that fits every other one for their unknowns.
+formsForReports :: Builtin -> [Form]
+formsForReports = forms Fresh {dimension = Dimension.none, anything = Wrong}
 
 -- | A call of @function@ with the arguments @titles@, as text.
 callText :: Text -> [Text] -> Text

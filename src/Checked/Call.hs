@@ -9,6 +9,8 @@ module Checked.Call
     labelChanges,
     nearestForm,
     placeholders,
+    pointFixes,
+    byLikeness,
   )
 where
 
@@ -19,9 +21,13 @@ import Checked.Builtin qualified as Builtin
 import Checked.Error (LabelChange (..))
 import Checked.ErrorFix qualified as ErrorFix
 import Checked.Syntax qualified as Checked
+import Checked.Type (Type)
+import Checked.Type qualified as Type
 import Data.Containers.ListUtils (nubOrd)
 import Data.List (sortOn)
 import Data.Text (Text)
+import Report.Fix (Fix)
+import Report.Fix qualified as Fix
 import Surface.Keyword qualified as Keyword
 import Surface.Syntax qualified as Surface
 
@@ -100,6 +106,67 @@ nearestForm count forms =
   where
     size = length . Builtin.parameters
     isPlain f = all ((== Builtin.NoLabel) . Builtin.label) (Builtin.parameters f)
+
+-- | Fixes that write brackets around two numbers, so that the arguments fit a form: their regions
+-- and types, and the forms without labels.
+pointFixes :: Text -> [(Region, Type)] -> [Form] -> [Fix]
+pointFixes function given forms' =
+  take
+    1
+    [ Fix.joined
+        ("Write each point in brackets: " <> shown form <> ".")
+        [Fix.enclosure "" "(" r ")" | r <- pairs]
+      | form <- sortOn (length . Builtin.parameters) forms',
+        all ((== Builtin.NoLabel) . Builtin.label) (Builtin.parameters form),
+        Just pairs <- [paired given (map Builtin.type' (Builtin.parameters form))],
+        not (null pairs)
+    ]
+  where
+    paired args types = case (args, types) of
+      ([], []) -> Just []
+      ((_, t) : rest, wanted : more) | isAlike t wanted -> paired rest more
+      ((a, t) : (b, t') : rest, Type.Spatial _ : more)
+        | isNumeric t && isNumeric t' -> (Region (start a) (end b) :) <$> paired rest more
+      _ -> Nothing
+    isAlike t wanted = case (t, wanted) of
+      (Type.Quantity _, Type.Quantity _) -> True
+      (Type.Spatial _, Type.Spatial _) -> True
+      (Type.Circle, Type.Circle) -> True
+      (Type.Line, Type.Line) -> True
+      _ -> False
+    isNumeric t = case t of
+      Type.Quantity _ -> True
+      _ -> False
+    shown form =
+      Builtin.callText
+        function
+        [ case Builtin.type' p of
+            Type.Spatial _ -> "(x, y)"
+            _ -> Builtin.title p
+          | p <- Builtin.parameters form
+        ]
+
+-- | Forms of a function, those first whose parameters are most like the given types.
+byLikeness :: [Type] -> [Form] -> [Form]
+byLikeness types forms' = sortOn distance (filter isNear forms')
+  where
+    -- Forms with another count of parameters are shown only if all arguments fit them.
+    isNear form =
+      not (any (hasCount . Builtin.parameters) forms')
+        || hasCount (Builtin.parameters form)
+        || misfits form == 0
+    hasCount ps = length ps == length types
+    misfits form =
+      length (filter not (zipWith isAlike types (map Builtin.type' (Builtin.parameters form))))
+    distance form =
+      ( misfits form,
+        abs (length types - length (Builtin.parameters form)),
+        length (filter ((/= Builtin.NoLabel) . Builtin.label) (Builtin.parameters form))
+      )
+    isAlike t wanted = case (t, wanted) of
+      (Type.Quantity _, Type.Quantity _) -> True
+      (Type.Spatial _, Type.Spatial _) -> True
+      _ -> t == wanted
 
 -- | The parameters of a form, each with a value that could stand in its place.
 placeholders :: Form -> [(Text, Maybe Text)]

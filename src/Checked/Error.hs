@@ -17,8 +17,10 @@ import Base.Decimal qualified as Decimal
 import Base.Name (Name (..))
 import Base.Name qualified as Name
 import Base.Region (Region (..))
+import Checked.ArithmeticReport
 import Checked.ErrorFix (WrittenTerm)
 import Checked.ErrorFix qualified as ErrorFix
+import Checked.NameMeaning qualified as NameMeaning
 import Checked.PieceError (PieceError)
 import Checked.PieceError qualified as PieceError
 import Checked.Syntax (Operator (..))
@@ -41,20 +43,35 @@ import Report.Report
     quote,
     report,
   )
+import Surface.Token (Numeral, Unit)
 
 -- | A mistake. The first field of every constructor but the last is the region that the report
 -- points at. The comment of a constructor names the other fields in order.
 data Error
-  = -- | an unknown name: this name, and all names and words that are known, for a suggestion
-    UndefinedName Region Name [Text]
+  = -- | an unknown name: this name, all names and words that are known, for a suggestion, and the
+    -- other regions of the name
+    UndefinedName Region Name [Text] [Region]
+  | -- | an unknown name before a value that can be no element of a contour: the name, the region of
+    -- the value, and the words of links if the name stands for one
+    UnknownLink Region Name Region [Text]
   | -- | a call of an unknown function: its name, and all names and words that are known
     UndefinedFunction Region Name [Text]
   | -- | a name that is defined only below: the name, the region of the definition, and the move of
     -- a statement that would mend the mistake
     UsedBeforeDefinition Region Name Region (Maybe StatementMove)
-  | -- | a name that is already defined: the name, the region of the first definition, and the
-    -- second definition
-    DefinedTwice Region Name Region WrittenTerm
+  | -- | a name that is already defined: the name, the region of the first definition, the second
+    -- definition, and the regions of its uses
+    DefinedTwice Region Name Region WrittenTerm [Region]
+  | -- | a sum of points: the regions of both, and the region of the half of the sum, if the program
+    -- takes the half
+    PointsAdded Region Region Region (Maybe Region)
+  | -- | a feed whose unit the language does not have: its number, the unit of its length, the word
+    -- after the stroke, and speeds of the spindle in turns per minute
+    UnknownUnit Region Numeral Unit Text [Double]
+  | -- | the coordinates of a point without its brackets
+    BareCoordinates Region
+  | -- | a number with pi that is used as an angle without a unit
+    RadiansWithoutUnit Region
   | -- | a definition of a name that belongs to the language: the name, facts about its definition,
     -- and the regions of its uses
     NameTaken Region Name WrittenTerm [Region]
@@ -76,8 +93,8 @@ data Error
     NoOperation Region UndefinedOperation [(Region, Type)]
   | -- | a call with a wrong number of arguments: the function, its parameters, each with a value
     -- that could stand in its place, the regions of the arguments in the call,
-    -- and the commas that may be decimal commas
-    ArgumentCount Region Name [(Text, Maybe Text)] [Region] [Region]
+    -- the commas that may be decimal commas, and the fix of points without brackets
+    ArgumentCount Region Name [(Text, Maybe Text)] [Region] [Region] [Fix]
   | -- | two arguments in the wrong order: the function, the arguments with their types, and the
     -- right order as a call
     Swapped Region Name [(Region, Type)] Text (Int, Int)
@@ -106,15 +123,22 @@ data Error
     Recursive Region Name
   | -- | arguments that fit no form of a built-in function: the function, the regions and types of
     -- the arguments, the forms of the function as calls, and arguments that alone do not fit a
-    -- form, each with the type that would fit and its own. Then the words that lead to a form, and
-    -- the commas that may be decimal commas
-    NoForm Region Text [(Region, Type)] [Text] [(Region, Type, Type)] [LabelChange] [Region]
+    -- form, each with the type that would fit and its own. Then the words that lead to a form,
+    -- the commas that may be decimal commas, and the fix of points without brackets
+    NoForm Region Text [(Region, Type)] [Text] [(Region, Type, Type)] [LabelChange] [Region] [Fix]
   | -- | a call for which the number of arguments, or the words such as @near@ before them, belong
     -- to no form: the built-in function, its forms as calls, changes of one word that lead to a
     -- form. If there are no such words: the regions of the arguments, and the parameters of the
     -- form with the nearest number of parameters, each with a value that could stand in its place.
-    -- Last, the commas that may be decimal commas
-    NoSuchCall Region Text [Text] [LabelChange] (Maybe ([Region], [(Text, Maybe Text)])) [Region]
+    -- Then the commas that may be decimal commas, and the fix of points without brackets
+    NoSuchCall
+      Region
+      Text
+      [Text]
+      [LabelChange]
+      (Maybe ([Region], [(Text, Maybe Text)]))
+      [Region]
+      [Fix]
   | -- | a statement that is not allowed in a block: the keyword of the statement, and its move to a
     -- place above the block
     NotInBlock Region Text StatementMove
@@ -157,16 +181,27 @@ data RequiredSetting
 -- | The report of a mistake.
 toReport :: Error -> Report
 toReport err = case err of
-  UndefinedName region (Name name) known ->
+  UndefinedName region (Name name) known again ->
     (at region "E0201" ("nothing is named " <> quote name))
-      { fixes = ErrorFix.nameFixes region name known,
+      { others = [Label r "here too" | r <- take 4 again],
+        message =
+          [ "It is used at " <> Decimal.whole (length again + 1) <> " places."
+            | length again > 4
+          ],
+        fixes = ErrorFix.nameFixes (region : again) name known,
         hints = lookAlikeHint name known
+      }
+  UnknownLink region (Name name) next links ->
+    (at region "E0201" ("nothing is named " <> quote name))
+      { fixes = ErrorFix.linkFixes region name next links
       }
   UndefinedFunction region (Name name) known ->
     (at region "E0201" ("no function is named " <> quote name))
-      { fixes = ErrorFix.callFixes region name known,
-        hints = lookAlikeHint name known
+      { fixes = if null advised then ErrorFix.callFixes region name known else [],
+        hints = if null advised then lookAlikeHint name known else advised
       }
+    where
+      advised = maybe [] pure (NameMeaning.advice name)
   UsedBeforeDefinition region (Name name) defined move ->
     (at region "E0202" (quote name <> " is used above its definition"))
       { others = [Label defined "it is defined here"],
@@ -176,12 +211,22 @@ toReport err = case err of
           ],
         hints = ["Move the definition above its first use." | Nothing <- [move]]
       }
-  DefinedTwice region (Name name) before again ->
+  PointsAdded region left right half -> pointsAddedReport region left right half
+  UnknownUnit region n unit word speeds -> unknownUnitReport region n unit word speeds
+  BareCoordinates region -> bareCoordinatesReport region
+  RadiansWithoutUnit region -> radiansReport region
+  DefinedTwice region (Name name) before again uses ->
     (at region "E0203" (quote name <> " is defined twice"))
       { label = "defined again here",
         others = [Label before "first defined here"],
         fixes =
-          [ Fix.proposed (Fix.exchange ("Name the second one " <> free <> ".") region free)
+          [ Fix.proposed
+              ( Fix.joined
+                  ( "Name the second one " <> free
+                      <> (if null uses then "." else ", here and where it is used below.")
+                  )
+                  [Fix.exchange "" r free | r <- region : uses]
+              )
             | Just (_, free) <- [ErrorFix.freeName again]
           ]
             <> [ Fix.proposed (Fix.removal "Leave the second one out." whole)
@@ -252,7 +297,7 @@ toReport err = case err of
       { others = [Label r (Type.describe t) | (r, t) <- values],
         fixes = ErrorFix.measureFixes values
       }
-  ArgumentCount region (Name name) wanted given commas ->
+  ArgumentCount region (Name name) wanted given commas points ->
     ( at
         region
         "E0208"
@@ -270,7 +315,10 @@ toReport err = case err of
             | let missing = drop (length given) wanted,
               not (null missing)
           ],
-        fixes = ErrorFix.decimalFixes commas <> ErrorFix.argumentFixes wanted given,
+        fixes =
+          if null points
+            then ErrorFix.decimalFixes commas <> ErrorFix.argumentFixes wanted given
+            else points,
         hints = ["Write " <> name <> "(" <> Text.intercalate ", " (map fst wanted) <> ")."]
       }
   Swapped region (Name name) given form (i, j) ->
@@ -358,7 +406,7 @@ toReport err = case err of
         "E0217"
         ( quote keyword
             <> " needs "
-            <> joinedWords (map (settingWord . fst) (NonEmpty.toList missing))
+            <> ErrorFix.joinedWords (map (settingWord . fst) (NonEmpty.toList missing))
             <> " above it"
         )
     )
@@ -382,24 +430,29 @@ toReport err = case err of
               not (null absent)
           ]
       }
-  NoForm region name given known misfits changes commas ->
+  NoForm region name given known misfits changes commas points ->
     ( at
         region
         "E0218"
-        (quote name <> " does not take " <> joinedWords (map (Type.describe . snd) given))
+        ( quote name
+            <> if null points
+              then " does not take " <> ErrorFix.joinedWords (map (Type.describe . snd) given)
+              else " takes a point as (x, y), in brackets of its own"
+        )
     )
-      { others = [Label r (Type.describe t) | (r, t) <- given],
+      { others = [Label r (Type.describe t) | null points, (r, t) <- given],
         fixes =
-          ErrorFix.decimalFixes commas
+          points
+            <> ErrorFix.decimalFixes commas
             <> map changeFix (take 4 changes)
             <> nub
               [ fix
                 | (r, wanted, found) <- misfits,
                   fix <- ErrorFix.mismatchFixes r wanted found ErrorFix.unwritten
               ],
-        hints = formsHint known
+        hints = if null points then ErrorFix.formsHint known else []
       }
-  NoSuchCall region name known changes unlabelled commas ->
+  NoSuchCall region name known changes unlabelled commas points ->
     ( at
         region
         "E0219"
@@ -411,11 +464,13 @@ toReport err = case err of
       { fixes =
           ErrorFix.decimalFixes commas
             <> map changeFix (take 4 changes)
-            <> maybe
-              []
-              (\(given, parameters) -> ErrorFix.argumentFixes parameters given)
-              unlabelled,
-        hints = formsHint known
+            <> points
+            <> concat
+              [ ErrorFix.argumentFixes parameters given
+                | null points,
+                  Just (given, parameters) <- [unlabelled]
+              ],
+        hints = if null points then ErrorFix.formsHint known else []
       }
   NotInBlock region word (StatementMove statement offset) ->
     (at region "E0220" (quote word <> " applies to the whole program and cannot be in braces"))
@@ -542,21 +597,3 @@ example setting = case setting of
   ToleranceSetting -> "tolerance 0.02 mm"
   FromSetting -> "from (0, 0)"
   ClearanceSetting -> "clearance 5 mm"
-
--- | The hint that shows how to call a function. It lists at most six of its forms.
-formsHint :: [Text] -> [Text]
-formsHint known = case known of
-  [] -> []
-  [one] -> ["Write " <> one <> "."]
-  _ ->
-    [ "Write one of: "
-        <> Text.intercalate "; " (take 6 known)
-        <> (if length known > 6 then "; …" else ".")
-    ]
-
--- | Joins words to a list such as "a, b and c".
-joinedWords :: [Text] -> Text
-joinedWords words' = case reverse words' of
-  [] -> ""
-  [one] -> one
-  final : before -> Text.intercalate ", " (reverse before) <> " and " <> final

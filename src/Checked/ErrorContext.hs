@@ -9,17 +9,20 @@ import Base.Name (Name (..))
 import Base.Region (Located (..), Region (..))
 import Checked.Builtin qualified as Builtin
 import Checked.Error (Error (..), StatementMove (..))
-import Checked.ErrorFix (WrittenTerm (WrittenTerm, freeName, isOwnCall, literal, statement))
+import Checked.ErrorFix
+  ( WrittenTerm (WrittenTerm, freeName, isOwnCall, isPairList, literal, statement),
+  )
 import Checked.ErrorFix qualified as ErrorFix
+import Checked.Type qualified as Type
 import Data.List (find, sortOn)
-import Data.Maybe (fromMaybe, isNothing, listToMaybe, mapMaybe, maybeToList)
+import Data.Maybe (fromMaybe, isJust, isNothing, listToMaybe, mapMaybe, maybeToList)
 import Data.Ord (Down (..))
 import Data.Set (Set)
 import Data.Set qualified as Set
 import Data.Text (Text)
 import Data.Text qualified as Text
 import Surface.Keyword qualified as Keyword
-import Surface.Syntax (Expr_ (..), Statement, Statement_ (..))
+import Surface.Syntax (Expr_ (..), Item_ (..), Operator (..), Spin (..), Statement, Statement_ (..))
 import Surface.Syntax qualified as Surface
 import Surface.SyntaxWalk qualified as SyntaxWalk
 import Surface.Token (Numeral (..), unitName)
@@ -28,10 +31,107 @@ import Surface.Token (Numeral (..), unitName)
 complete :: [Statement] -> [Error] -> [Error]
 complete statements errors = case errors of
   [] -> []
-  _ -> map (completed statements) errors
+  _ ->
+    oncePerSum . map (completed statements) . oncePerPoint statements . oncePerName $
+      besideElements statements (filter (not . isLost) errors)
+  where
+    -- The name of a definition that cannot be parsed is unknown, and may be any that is missing.
+    isLost e = case e of
+      UndefinedName {} -> isNameLost
+      UndefinedFunction {} -> isNameLost
+      _ -> False
+    isNameLost =
+      or
+        [ True
+          | Located _ (Surface.Broken keyword Nothing) <-
+              concatMap SyntaxWalk.statementsIn statements,
+            fromMaybe "let" keyword `elem` ["let", "param", "contour", "table", "curve", "piece"]
+        ]
+
+-- | The errors of which the numbers of one point without its brackets are one.
+oncePerPoint :: [Statement] -> [Error] -> [Error]
+oncePerPoint statements errors = case errors of
+  [] -> []
+  e : rest -> case spanNumbers e rest of
+    (r : _, others)
+      | Just first <- number e ->
+        BareCoordinates (Region (start first) (end r)) : oncePerPoint statements others
+    _ -> e : oncePerPoint statements rest
+  where
+    number e = case e of
+      Mismatch r wanted (Type.Quantity _) _ _
+        | wanted == Type.aPoint && not (any (contains r) pieces) -> Just r
+      _ -> Nothing
+    -- The values of a cipher are separate.
+    pieces = [region s | s@(Located _ (Piece {})) <- concatMap SyntaxWalk.statementsIn statements]
+    -- The regions of the numbers after the first, the last one first, and the other errors.
+    spanNumbers e rest = case (number e, rest) of
+      (Just r, next : more)
+        | Just r' <- number next,
+          start r' > end r,
+          start r' <= end r + 2 ->
+          let (others, left) = spanNumbers next more in (others <> [r'], left)
+      _ -> ([], rest)
+
+-- | The errors without those that report a sum of points again. The one that knows the whole
+-- calculation is kept.
+oncePerSum :: [Error] -> [Error]
+oncePerSum errors = [e | (k, e) <- zip [0 :: Int ..] errors, not (isRepeated k e)]
+  where
+    isRepeated k e = case e of
+      PointsAdded at _ _ half ->
+        or
+          [ isNothing half && isJust half' || (isJust half == isJust half') && n < k
+            | (n, PointsAdded at' _ _ half') <- zip [0 ..] errors,
+              at' == at,
+              n /= k
+          ]
+      _ -> False
+
+-- | The errors of which an unknown name in a contour, and the value after it that can be no
+-- element, are one. The name of an element may mean a link; names elsewhere cannot.
+besideElements :: [Statement] -> [Error] -> [Error]
+besideElements statements errors = mapMaybe joined errors
+  where
+    joined e = case e of
+      UndefinedName at name known _
+        | next : _ <- [r | NotAnElement r _ _ <- errors, isNext at r] ->
+          Just (UnknownLink at name next (if isElement at then filter (`elem` links) known else []))
+        | not (isElement at) -> Just (UndefinedName at name (filter (`notElem` links) known) [])
+      UndefinedName at name known _
+        | next : _ <- [r | SenseMissing r <- errors, isNext at r] ->
+          Just (UnknownLink at name next (filter (`elem` ["cw", "ccw"]) known))
+      SenseMissing r | or [isNext at r | UndefinedName at _ _ _ <- errors] -> Nothing
+      NotAnElement r _ _ | or [isNext at r | UndefinedName at _ _ _ <- errors] -> Nothing
+      _ -> Just e
+    isNext at r = start r > end at && start r <= end at + 3
+    isElement at = at `elem` elements
+    elements =
+      [ region x
+        | s <- concatMap SyntaxWalk.statementsIn statements,
+          Located _ (Element _ x _ _) <- SyntaxWalk.itemsOf s
+      ]
+    links = ["fillet", "chamfer", "tangent", "smooth", "meet", "feed", "slow", "allowance", "bevel"]
+
+-- | The errors of which those that report the same unknown name are one.
+oncePerName :: [Error] -> [Error]
+oncePerName errors = case errors of
+  [] -> []
+  UndefinedName at name known others : rest ->
+    let again = [at' | UndefinedName at' name' _ _ <- rest, name' == name]
+        isOther e = case e of
+          UndefinedName _ name' _ _ -> name' /= name
+          _ -> True
+     in UndefinedName at name known (others <> again) : oncePerName (filter isOther rest)
+  e : rest -> e : oncePerName rest
 
 completed :: [Statement] -> Error -> Error
 completed statements e = case e of
+  Mismatch at wanted found elsewhere _
+    | sum' : _ <- mapMaybe (addedPoints statements . fst) ((at, wanted) : elsewhere),
+      isSpatial wanted && isSpatial found ->
+      sum'
+  UnknownUnit at n unit word _ -> UnknownUnit at n unit word (spindleSpeeds statements at)
   Mismatch at wanted found elsewhere _ ->
     Mismatch at wanted found elsewhere (termAt statements at)
   Disagree at operator left right elsewhere _ ->
@@ -42,16 +142,59 @@ completed statements e = case e of
   NotAnElement at t _ -> NotAnElement at t (termAt statements at)
   UsedBeforeDefinition at name defined _ ->
     UsedBeforeDefinition at name defined (moveAbove statements at defined)
-  DefinedTwice at name before _ -> DefinedTwice at name before (definitionAt statements at name)
+  DefinedTwice at name before _ _ ->
+    DefinedTwice at name before (definitionAt statements at name) (usesOf statements at name)
   NameTaken at name _ _ ->
     NameTaken at name (definitionAt statements at name) (usesOf statements at name)
-  NoForm at name given known misfits changes _ ->
-    NoForm at name given known misfits changes (decimalCommas statements (map fst given))
-  NoSuchCall at name known changes (Just (given, parameters)) _ ->
-    NoSuchCall at name known changes (Just (given, parameters)) (decimalCommas statements given)
-  ArgumentCount at name wanted given _ ->
-    ArgumentCount at name wanted given (decimalCommas statements given)
+  NoForm at name given known misfits changes _ points ->
+    let commas
+          | Type.SpacePoint `elem` map snd given = decimalCommasOfPoints statements
+          | otherwise = decimalCommas statements (map fst given)
+     in NoForm at name given known misfits changes commas points
+  NoSuchCall at name known changes call@(Just (given, _)) _ points ->
+    NoSuchCall at name known changes call (decimalCommas statements given) points
+  ArgumentCount at name wanted given _ points ->
+    ArgumentCount at name wanted given (decimalCommas statements given) points
   _ -> e
+
+isSpatial :: Type.Type -> Bool
+isSpatial t = case t of
+  Type.Spatial _ -> True
+  _ -> False
+
+-- | The error of a sum of points, if the term at a region is a sum, or a multiple of one.
+addedPoints :: [Statement] -> Region -> Maybe Error
+addedPoints statements at =
+  listToMaybe (mapMaybe ofTerm (termsAt statements at))
+  where
+    ofTerm x = case x of
+      Binary Add l r -> Just (added Nothing l r)
+      Binary Divide (Located _ (Binary Add l r)) (Located _ (Literal n Nothing))
+        | amount n == 2 -> Just (half l r)
+      Binary Multiply (Located _ (Binary Add l r)) (Located _ (Literal n Nothing))
+        | amount n == 0.5 -> Just (half l r)
+      Binary Multiply (Located _ (Literal n Nothing)) (Located _ (Binary Add l r))
+        | amount n == 0.5 -> Just (half l r)
+      _ -> Nothing
+    half = added (Just at)
+    added whole l r =
+      PointsAdded
+        (Region (start (region l)) (end (region r)))
+        (region l)
+        (region r)
+        whole
+
+-- | The speeds of the spindle that a program gives as numbers, in turns per minute, those below a
+-- region first.
+spindleSpeeds :: [Statement] -> Region -> [Double]
+spindleSpeeds statements at =
+  map snd (sortOn ((< start at) . fst) speeds)
+  where
+    speeds =
+      [ (start r, amount n)
+        | Located r (Spindle (Spinning _ (Just (Located _ (Literal n _))))) <-
+            concatMap SyntaxWalk.statementsIn statements
+      ]
 
 -- | The commas between arguments that may be decimal commas: those between two numbers without
 -- units, with no space on either side.
@@ -66,6 +209,18 @@ decimalCommas statements given =
   where
     isNumber r = or [True | Literal _ Nothing <- termsAt statements r]
 
+-- | The commas of points with a height that may be decimal commas: one comma of the point has no
+-- space beside it, and the other has.
+decimalCommasOfPoints :: [Statement] -> [Region]
+decimalCommasOfPoints statements =
+  concat
+    [ take 1 tight
+      | s <- concatMap SyntaxWalk.statementsIn statements,
+        Located _ (Triple x y z) <- concatMap SyntaxWalk.everywhere (SyntaxWalk.ofStatement s),
+        let tight = decimalCommas statements (map region [x, y, z]),
+        length tight == 1
+    ]
+
 -- | The facts about the term at a region.
 termAt :: [Statement] -> Region -> WrittenTerm
 termAt statements at =
@@ -74,6 +229,7 @@ termAt statements at =
       statement = region <$> listToMaybe around,
       freeName = listToMaybe [(name, free statements name) | Variable (Name name) <- terms],
       ErrorFix.words = listToMaybe (mapMaybe written terms),
+      isPairList = or [length es `elem` [2, 3] | List es <- terms],
       isOwnCall = or [isNothing (Builtin.lookup name) | Call (Located _ (Name name)) _ <- terms]
     }
   where
@@ -109,7 +265,8 @@ definitionAt statements at (Name name) =
           [region s | s <- innermostFirst at everything, Just n <- [definedName s], region n == at],
       freeName = Just (name, free statements name),
       ErrorFix.words = Just name,
-      isOwnCall = False
+      isOwnCall = False,
+      isPairList = False
     }
   where
     everything = concatMap SyntaxWalk.statementsIn statements

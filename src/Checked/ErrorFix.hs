@@ -6,6 +6,7 @@ module Checked.ErrorFix
     unwritten,
     subject,
     nameFixes,
+    linkFixes,
     callFixes,
     mismatchFixes,
     disagreeFixes,
@@ -15,15 +16,19 @@ module Checked.ErrorFix
     decimalFixes,
     listFixes,
     cipherFixes,
+    formsHint,
+    joinedWords,
   )
 where
 
 import Base.Name qualified as Name
 import Base.Region (Region (..))
+import Checked.NameMeaning qualified as NameMeaning
 import Checked.Syntax (Operator (..))
 import Checked.Type (Type (..))
 import Checked.Type qualified as Type
 import Data.Char (isDigit)
+import Data.Containers.ListUtils (nubOrd)
 import Data.Maybe (isJust, listToMaybe)
 import Data.Text (Text)
 import Data.Text qualified as Text
@@ -44,7 +49,9 @@ data WrittenTerm = WrittenTerm
     -- | the term as it is written, if it is a number or a name
     words :: Maybe Text,
     -- | true of a call of a function of the program, in whose body the mistake may be
-    isOwnCall :: Bool
+    isOwnCall :: Bool,
+    -- | true of a list of two or three items
+    isPairList :: Bool
   }
   deriving stock (Eq, Show)
 
@@ -56,7 +63,8 @@ unwritten =
       statement = Nothing,
       freeName = Nothing,
       words = Nothing,
-      isOwnCall = False
+      isOwnCall = False,
+      isPairList = False
     }
 
 -- | A term as the subject of a sentence: as it is written, or "this".
@@ -65,20 +73,23 @@ subject = maybe "this" quote . words
 
 -- Names
 
--- | Fixes of an unknown name at a region; @known@ has the names and words that are known.
-nameFixes :: Region -> Text -> [Text] -> [Fix]
-nameFixes region name known
+-- | Fixes of an unknown name at some regions; @known@ has the names and words that are known.
+nameFixes :: [Region] -> Text -> [Text] -> [Fix]
+nameFixes regions name known
+  | [one] <- meant = [put one]
+  | not (null meant) = map (Fix.proposed . put) (take 3 meant)
   | not (null similar) = map put (take 2 similar)
   | Just new <- computed name = [put new]
   | otherwise = []
   where
-    put new = Fix.exchange ("Write " <> quote new <> ".") region new
+    put new =
+      Fix.joined
+        ("Write " <> quote new <> (if length regions > 1 then " at all these places." else "."))
+        [Fix.exchange "" region new | region <- regions]
     similar =
-      Name.lookAlike name known
-        <> Name.nearest name known
-        <> filter (`elem` known) (longer <> synonyms)
+      nubOrd (Name.lookAlike name known <> Name.nearest name known)
+    meant = filter (`elem` known) (nubOrd (NameMeaning.meanings name <> longer))
     longer = [name <> ending | ending <- ["_of", "d", "ed"]]
-    synonyms = [new | (old, new) <- otherNames, old == Text.toLower name]
     computed text = case Text.uncons text of
       Just (letter, digits)
         | not (Text.null digits),
@@ -90,19 +101,21 @@ nameFixes region name known
         Just base | base `elem` known -> Just (base <> " * " <> base)
         _ -> Nothing
 
--- | Names of other languages for what the language has under a name of its own.
-otherNames :: [(Text, Text)]
-otherNames =
-  [ ("len", "count_of"),
-    ("size", "count_of"),
-    ("translate", "moved"),
-    ("translated", "moved"),
-    ("center", "centre_of"),
-    ("root", "sqrt"),
-    ("π", "pi"),
-    ("yes", "true"),
-    ("no", "false")
-  ]
+-- | Fixes of an unknown name before a value in a contour: the word of a link instead of it, or
+-- nothing.
+linkFixes :: Region -> Text -> Region -> [Text] -> [Fix]
+linkFixes region name next links
+  | w : _ <- nubOrd (NameMeaning.linksMeant name <> Name.nearest name links),
+    w `elem` links =
+    [Fix.exchange ("Write " <> quote w <> " instead of " <> quote name <> ".") region w]
+  | Text.toLower name `elem` ["x", "х", "by", "at"] =
+    [ Fix.removal
+        ("Leave this out, from " <> quote name <> " on: a chamfer has one length.")
+        (Region (start region) (end next))
+    ]
+  | null links =
+    [Fix.removal ("Leave " <> quote name <> " out.") (Region (start region) (start next))]
+  | otherwise = []
 
 -- | Fixes of an unknown function.
 callFixes :: Region -> Text -> [Text] -> [Fix]
@@ -111,7 +124,7 @@ callFixes region name known
     [ Fix.proposed
         (Fix.removal ("Leave " <> quote name <> " out: a point is written (x, y).") region)
     ]
-  | otherwise = nameFixes region name known
+  | otherwise = nameFixes [region] name known
 
 -- Types
 
@@ -129,6 +142,14 @@ mismatchFixes region wanted found term = case literal term of
     written digits unit = Text.strip (digits <> " " <> unit)
     isSpeed t = t == Type.feed
     contourFixes = case (wanted, found, statement term, freeName term) of
+      (Spatial _, ListOf _, _, _)
+        | isPairList term ->
+          [ Fix.joined
+              "Write the point in round brackets."
+              [ Fix.exchange "" (Region (start region) (start region + 1)) "(",
+                Fix.exchange "" (Region (end region - 1) (end region)) ")"
+              ]
+          ]
       (Contour, Circle, Just whole, Just (name, free)) ->
         [ Fix.proposed
             ( Fix.joined
@@ -214,12 +235,15 @@ conversions wanted found = case (wanted, found) of
   (Curve _, Table _) -> [call "Lay a spline through the points of the table." "spline"]
   (Curve _, ListOf (Spatial _)) -> [call "Lay a spline through the points." "spline"]
   (ListOf item, Table _)
-    | item == Type.aPoint -> [call "Take the points of the table." "points_of"]
+    | item == Type.aPoint || isUnknown item -> [call "Take the points of the table." "points_of"]
   (ListOf (Spatial _), Spatial _) -> [("Write a list of one point.", "[", "]")]
   (ListOf item, _)
     | item == found -> [("Write a list of one item.", "[", "]")]
   _ -> []
   where
+    isUnknown t = case t of
+      Variable _ -> True
+      _ -> False
     call title' name = (title', name <> "(", ")")
     times u title' = (title', "(", ") * 1 " <> u)
 
@@ -384,3 +408,20 @@ cipherFixes region digit digitRegion values counts
     commas parts' = case parts' of
       a : more@(_ : _) -> a : Written ", " : commas more
       _ -> parts'
+
+-- Words
+
+-- | The hint that shows how to call a function. It lists at most four of its forms.
+formsHint :: [Text] -> [Text]
+formsHint known = case known of
+  [] -> []
+  [one] -> ["Write " <> one <> "."]
+  _ ->
+    ["Write one of: " <> Text.intercalate "; " (take 4 known) <> "."]
+
+-- | Joins words to a list such as "a, b and c".
+joinedWords :: [Text] -> Text
+joinedWords words' = case reverse words' of
+  [] -> ""
+  [one] -> one
+  final : before -> Text.intercalate ", " (reverse before) <> " and " <> final

@@ -20,15 +20,18 @@ where
 
 import Base.Name (Name (..))
 import Base.Region (Located (..), Region (..))
+import Checked.ArithmeticReport qualified as ArithmeticReport
 import Checked.Builtin (ArgumentLabel, Form (..))
 import Checked.Builtin qualified as Builtin
 import Checked.Call
   ( Call (..),
     argumentValues,
+    byLikeness,
     labelChanges,
     labelOf,
     nearestForm,
     placeholders,
+    pointFixes,
     unlabelled,
     withLabels,
   )
@@ -40,6 +43,7 @@ import Checked.ErrorFix qualified as ErrorFix
 import Checked.Inference (Infer)
 import Checked.Inference qualified as Inference
 import Checked.Inference.Fast qualified as FastInference
+import Checked.Inference.Literal (plainFactor, radians)
 import Checked.Scheme
   ( Arithmetic (..),
     Binding (..),
@@ -84,7 +88,8 @@ expect env wanted e = case (value e, wanted) of
   (Surface.Pair x y, Type.Spatial d) | Dimension.isKnown d -> pair env (region e) x y
   _ -> do
     (t, e') <- infer env e
-    equal (region e) wanted t
+    isReported <- radians wanted e
+    unless isReported (equal (region e) wanted t)
     pure e'
 
 -- | Requires that @t@, the type of the term at the region @at@, is the type @wanted@. Reports a
@@ -123,6 +128,7 @@ pointOrPoints env e = do
   t' <- Inference.resolved t
   case t' of
     Type.Spatial _ -> equal (region e) Type.aPoint t
+    Type.Circle -> equal (region e) Type.aPoint t
     _ -> equal (region e) (Type.ListOf Type.aPoint) t
   pure e'
 
@@ -268,38 +274,21 @@ binary env at op l r
 -- the report says how the unit is written.
 divisor :: TypingEnvironment -> Surface.Operator -> Surface.Expr -> Surface.Expr -> Infer Typed
 divisor env op l r = case (op, value l, value r) of
+  (Surface.Divide, Surface.Literal n (Just unit), Surface.Variable name@(Name word))
+    | unit `elem` [Millimetre, Metre, Inch],
+      word /= "min",
+      word `elem` ArithmeticReport.unitDivisors -> do
+      known <- Inference.find name
+      case known of
+        Nothing ->
+          wrongTerm
+            (region r)
+            (UnknownUnit (Region (start (region l)) (end (region r))) n unit word [])
+        Just _ -> infer env r
   (Surface.Divide, Surface.Literal _ (Just unit), Surface.Variable (Name "min"))
     | unit `elem` [Millimetre, Metre, Inch] ->
       wrongTerm (region r) (FunctionAsValue (region r) (Name "min") [] (Just (end (region l))))
   _ -> infer env r
-
--- | Decides that an operand of a product or a quotient is a plain number, if it consists of
--- literals without units and the other operand does not. A divisor of this kind is always a plain
--- number. A factor or a dividend is decided only if the other operand has a known dimension and is
--- not a plain number. So the 2 in @2 * a@ is a plain number if @a@ is an angle. But if @k@ is a
--- plain number, the 20 in @20 * k@ may have any dimension, for example that of a length.
-plainFactor :: Surface.Operator -> (Surface.Expr, Type) -> (Surface.Expr, Type) -> Infer ()
-plainFactor op (l, lt) (r, rt) = do
-  lt' <- Inference.resolved lt
-  rt' <- Inference.resolved rt
-  when
-    (hasNoUnit l && not (hasNoUnit r) && hasDimension rt')
-    (void (Inference.unify (region l) Type.number lt))
-  when
-    (hasNoUnit r && not (hasNoUnit l) && (op == Surface.Divide || hasDimension lt'))
-    (void (Inference.unify (region r) Type.number rt))
-  where
-    hasDimension t = case t of
-      Type.Quantity d -> Dimension.isKnown d && d /= Dimension.none
-      _ -> False
-
--- | Does an expression consist only of literals without units?
-hasNoUnit :: Surface.Expr -> Bool
-hasNoUnit (Located _ e) = case e of
-  Surface.Literal _ Nothing -> True
-  Surface.Negate inner -> hasNoUnit inner
-  Surface.Binary _ l r -> hasNoUnit l && hasNoUnit r
-  _ -> False
 
 -- | Adds the deferred constraint of an operation on two operands, and yields the type of the
 -- result. An operand is given by its region and its type.
@@ -343,7 +332,7 @@ repetition env counter@(Located _ (Name text)) list = do
   isList <- isEqual (region list) (Type.ListOf t) found
   pure (if isList && found' /= Type.Wrong then t else Type.Wrong, list')
 
--- | Is this the name of a function or a constant of the language?
+-- | Tells if this is the name of a function or a constant of the language.
 isBuiltin :: Text -> Bool
 isBuiltin = isJust . Builtin.lookup
 
@@ -367,8 +356,13 @@ variable env at name@(Name text) = do
         case Builtin.forms unknowns builtin of
           [Form [] t] -> pure (t, const (Located at (Checked.Builtin builtin [])))
           _ -> wrongTerm at (FunctionAsValue at name (Builtin.formTexts builtin) Nothing)
-      Nothing -> unknownName env UndefinedName at name >>= wrongTerm at
+      Nothing -> unknownName env undefinedName at name >>= wrongTerm at
   where
+    undefinedName region' name' known = UndefinedName region' name' (filter isValueWord known) []
+    -- Names of functions cannot stand for values, nor words that begin statements.
+    isValueWord word = case Builtin.lookup word of
+      Just builtin -> Builtin.isConstant builtin
+      Nothing -> word `notElem` Keyword.statements
     local definedAt t = do
       Inference.mention at (Just definedAt) text (Inference.Valued t)
       pure (t, const (Located at (Checked.Variable name)))
@@ -424,10 +418,18 @@ call env at callee@(Located nameRegion name@(Name text)) arguments = do
             text
             (Inference.Described (Builtin.description builtin))
           builtinCall env this builtin
-      Nothing -> unknownName env UndefinedFunction nameRegion name >>= wrongCall env this
+      Nothing -> unknownName env undefinedFunction nameRegion name >>= wrongCall env this
   where
+    undefinedFunction r n known =
+      UndefinedFunction r n (filter (`fitsCount` length arguments) known)
     noFunction before = NotAFunction nameRegion name before (length arguments)
     this = Call {callRegion = at, callee, written = NonEmpty.toList arguments}
+
+-- | Tells if a word may be a function with this count of arguments.
+fitsCount :: Text -> Int -> Bool
+fitsCount word count = case Builtin.lookup word of
+  Just builtin -> count `elem` map (length . Builtin.parameters) (Builtin.formsForReports builtin)
+  Nothing -> word `notElem` Keyword.reservedWords
 
 -- | Reports the mistake @e@ in a call. Also checks the arguments, so that mistakes in them are
 -- reported, too.
@@ -463,6 +465,7 @@ functionCall env c parameters scheme = do
             (zip parameters (map ErrorFix.placeholder types))
             (map region (argumentValues c))
             []
+            []
         )
   where
     at = callRegion c
@@ -479,8 +482,18 @@ builtinCall env c builtin = do
   let forms = Builtin.forms unknowns builtin
       isOnlyForm = null (drop 1 forms)
   case (Builtin.labelled unknowns builtin labels, forms, unlabelled c) of
-    ([], [form], Just es) ->
-      wrongCall env c (ArgumentCount at name (placeholders form) (map region es) [])
+    ([], [form], Just es) -> do
+      types <- mapM (infer env) es >>= mapM (Inference.resolved . fst)
+      wrongTerm
+        at
+        ( ArgumentCount
+            at
+            name
+            (placeholders form)
+            (map region es)
+            []
+            (pointFixes (Builtin.name builtin) (zip (map region es) types) forms)
+        )
     ([], _, _) -> noSuchCall env c builtin forms
     ([form], _, _) | isOnlyForm || any (/= Builtin.NoLabel) labels -> do
       checked <-
@@ -509,17 +522,23 @@ builtinCall env c builtin = do
 noSuchCall :: TypingEnvironment -> Call -> Checked.Builtin -> [Form] -> Infer Typed
 noSuchCall env c builtin forms = do
   types <- mapM (infer env) (argumentValues c) >>= mapM (Inference.resolved . fst)
-  let isFitting = and . zipWith Inference.isCompatible types . valueTypes
+  let points types' =
+        concat
+          [ pointFixes (Builtin.name builtin) (zip (map region es) types') forms
+            | Just es <- [unlabelled c]
+          ]
+      isFitting = and . zipWith Inference.isCompatible types . valueTypes
       nearest es = (map region es, nearestForm (length es) forms)
   wrongTerm
     (callRegion c)
     ( NoSuchCall
         (callRegion c)
         (Builtin.name builtin)
-        (Builtin.formTexts builtin)
+        (map (Builtin.formText builtin) (byLikeness types forms))
         (labelChanges c (filter isFitting forms))
         (nearest <$> unlabelled c)
         []
+        (points types)
     )
 
 -- | The types of the parameters of a form that take a value.
@@ -572,6 +591,10 @@ checkedArguments env c form types es = do
       pure [(False, e') | (_, e') <- checked]
     Nothing ->
       zipWithM
-        (\wanted (e, (t, e')) -> (,e') <$> isEqual (region e) wanted t)
+        argument'
         types
         (zip es checked)
+  where
+    argument' wanted (e, (t, e')) = do
+      isReported <- radians wanted e
+      if isReported then pure (False, e') else (,e') <$> isEqual (region e) wanted t

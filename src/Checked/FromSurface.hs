@@ -65,8 +65,9 @@ checkBy isFast Surface.Program {Surface.statements = written} =
     { warnings = [],
       errors =
         RequiredSetting.check written
-          <> ErrorContext.complete written (filter (not . isExcused) found),
-      output = Just program
+          <> ErrorContext.complete written (filter (not . isExcused) found <> radians),
+      -- The geometry of an angle in the wrong unit would only make further errors.
+      output = if null radians then Just program else Nothing
     }
   where
     (found, solution, checked, mentions) =
@@ -74,6 +75,18 @@ checkBy isFast Surface.Program {Surface.statements = written} =
         ( catMaybes
             <$> mapM (statement TypingEnvironment {definitions = definedIn written, isFast}) written
         )
+    -- Numbers with pi and without units that become angles by the use of their names.
+    radians =
+      [ RadiansWithoutUnit (region e)
+        | Located _ (Surface.LetValue n e) <- concatMap SyntaxWalk.statementsIn written,
+          SyntaxWalk.isRadians e,
+          or
+            [ t == Type.angle
+              | m <- mentions,
+                Checked.place m == region n,
+                Checked.OfValue t <- [Checked.typing m]
+            ]
+      ]
     -- A file that could not be imported may define any name, so unknown names are not reported.
     isExcused e = isImportBroken && isUndefinedName e
     isImportBroken = or [True | Located _ (Surface.Broken (Just "import") _) <- written]
@@ -241,7 +254,7 @@ reportRepeated names = case names of
   [] -> pure ()
   n : rest -> do
     mapM_
-      (\again -> Inference.mistake (DefinedTwice (region again) (value n) (region n) unwritten))
+      (\again -> Inference.mistake (DefinedTwice (region again) (value n) (region n) unwritten []))
       (take 1 (filter ((== value n) . value) rest))
     reportRepeated rest
 
@@ -314,7 +327,9 @@ defining name bindingOf inside = do
   checked <- Inference.separately (reportTaken name *> inside)
   already <- Inference.find (value name)
   case already of
-    Just _ -> pure ()
+    -- A name with two definitions has no type, so that its uses are not reported too.
+    Just (Local _ _) -> pure ()
+    Just _ -> Inference.define (value name) (Poisoned (region name))
     Nothing -> do
       let binding = maybe (Poisoned (region name)) bindingOf checked
       Inference.define (value name) binding
@@ -327,9 +342,9 @@ reportTaken :: Located Name -> Infer ()
 reportTaken located@(Located at name) = do
   binding <- Inference.find name
   case binding of
-    Just (Value before _) -> Inference.mistake (DefinedTwice at name before unwritten)
-    Just (Function before _ _) -> Inference.mistake (DefinedTwice at name before unwritten)
-    Just (Poisoned before) -> Inference.mistake (DefinedTwice at name before unwritten)
+    Just (Value before _) -> Inference.mistake (DefinedTwice at name before unwritten [])
+    Just (Function before _ _) -> Inference.mistake (DefinedTwice at name before unwritten [])
+    Just (Poisoned before) -> Inference.mistake (DefinedTwice at name before unwritten [])
     Just (Local _ _) -> pure ()
     Nothing -> pure ()
   reportBuiltin located

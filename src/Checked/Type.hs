@@ -133,11 +133,13 @@ describe t = case t of
   Variable _ -> "a value"
   Wrong -> "a value"
 
--- | The words of a description that name the columns in the 'Fields' @t@, such as "with mu". Empty
--- if there are no columns, or if @t@ is an unknown.
+-- | The words of a description that name the columns in the 'Fields' @t@, such as "with the column
+-- mu". Empty if there are no columns, or if @t@ is an unknown.
 withColumns :: Type -> Text
 withColumns t = case t of
-  Fields columns@(_ : _) -> " with " <> Text.intercalate ", " (map (value . fst) columns)
+  Fields [(column, _)] -> " with the column " <> value column
+  Fields columns@(_ : _) ->
+    " with the columns " <> Text.intercalate ", " (map (value . fst) columns)
   _ -> ""
 
 -- | The description of several values of a type, without an article, such as "lengths".

@@ -35,7 +35,9 @@ fix reporter isDry file
       Right text -> do
         mended <- FixRun.mend (checked reporter name) text
         written <- write reporter isDry file mended
-        isStopped <- Output.showReports reporter name (source mended) (left mended)
+        -- Warnings have nothing to do with the repair; partc check shows them.
+        isStopped <-
+          Output.showReports reporter name (source mended) (filter Report.isError (left mended))
         pure (max written (if isStopped then Failed else Done))
   where
     name = displayName file

@@ -79,17 +79,26 @@ reportWith option err = case err of
                   ("Write its description in quotation marks: machine \"" <> name <> "\"")
                   region
                   ("\"" <> name <> "\"")
-              else Fix.exchange ("Write " <> n <> ".") region n
+              else Fix.exchange (advised <> n <> ".") region n
             | Just region <- [place],
               n <- take 1 (if isFile then [name] else similar)
           ],
         hints =
           ["Write " <> option <> n <> "." | null place, not isFile, n <- take 1 similar]
-            <> ["Write one of them." | null similar, not isFile]
+            <> [ "For G-code write iso6983; docs/machines.md describes the other controls."
+                 | null similar,
+                   not isFile,
+                   gCode `elem` known
+               ]
       }
     where
       isFile = MachineDescription.isDescription name
-      similar = Name.lookAlike name known <> Name.nearest name known
+      advised = if isGCode then "For G-code write " else "Write "
+      similar
+        | isGCode = [gCode]
+        | otherwise = Name.lookAlike name known <> Name.nearest name known
+      isGCode = gCode `elem` known && any (`Text.isPrefixOf` Text.toLower name) gCodeControls
+      gCode = "iso6983"
   DescriptionMissing place file why ->
     ( wrong
         "E0806"
@@ -122,6 +131,14 @@ reportWith option err = case err of
       }
   where
     wrong = report Report.Error
+
+-- | The beginnings of the names of controls and programs that read G-code.
+gCodeControls :: [Text]
+gCodeControls =
+  Text.words
+    "fanuc haas heidenhain siemens sinumerik mach3 mach4 linuxcnc grbl gcode g-code iso din66025 \
+    \marlin okuma mazak mitsubishi centroid tormach uccnc emc fagor num cnc generic balt-system \
+    \smoothie duet"
 
 -- | A report on a machine description as one line of text: file, line number, column and title, or
 -- only the title if the report has no region. @file@ and @text@ are the name and the text of the

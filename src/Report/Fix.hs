@@ -32,16 +32,16 @@ data Fix = Fix
     -- | edits that do not overlap
     edits :: [FixEdit]
   }
-  deriving stock (Eq, Show)
+  deriving stock (Eq, Ord, Show)
 
 -- | Region of the program whose text is replaced, and the parts of the new text. An empty region is
 -- a place for new text.
 data FixEdit = FixEdit {replaced :: Region, parts :: [FixText]}
-  deriving stock (Eq, Show)
+  deriving stock (Eq, Ord, Show)
 
 -- | Part of a new text: words of the fix, or the text of a region of the program.
 data FixText = Written Text | Copied Region
-  deriving stock (Eq, Show)
+  deriving stock (Eq, Ord, Show)
 
 -- | Fix that writes another text in a region.
 exchange :: Text -> Region -> Text -> Fix

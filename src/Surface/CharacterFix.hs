@@ -58,7 +58,7 @@ characterFixes region c around
   | c == '!' = [put "Write not instead." "not "]
   | c `elem` quotationMarks = quotationFixes region around
   | c `elem` ("⌀∅" :: String) = diameterFixes region around
-  | c == '^' = powerFixes region around
+  | c == '^' = powersFixes region around
   | c == '.' = pointFixes region around
   | isFullWidth c = [put ("Write " <> narrowed <> " instead.") narrowed]
   | generalCategory c `elem` [Format, Control] =
@@ -109,6 +109,20 @@ diameterFixes region around = case (before around, following around) of
       _ : Word kind : _ -> kind `elem` ["mill", "drill", "cone", "blade"]
       _ -> False
 
+-- | Writes all powers on the rest of a line as products.
+powersFixes :: Region -> TokenContext -> [Fix]
+powersFixes region around = case concat fixes' of
+  [] -> []
+  [one] -> [one]
+  several -> [Fix.joined "Write the powers as products." several]
+  where
+    fixes' =
+      powerFixes region around :
+        [ powerFixes (place t) around {before = [base], after = [count]}
+          | (base, t, count) <- zip3 (after around) (drop 1 (after around)) (drop 2 (after around)),
+            shape t == Stray '^'
+        ]
+
 -- | Writes a power as a product.
 powerFixes :: Region -> TokenContext -> [Fix]
 powerFixes region around = case (previous around, following around) of
@@ -146,11 +160,20 @@ pointFixes region around = case following around of
 
 -- | Fix for a text without its closing quotation mark.
 textFixes :: Region -> TokenContext -> [Fix]
-textFixes region around =
-  [ Fix.insertion "Write \" at the end of the line." (end region) "\""
-    | t : _ <- [reverse (before around)],
-      shape t `elem` map Word ["part", "import", "machine", "table"]
-  ]
+textFixes region around
+  | Just t <- previous around,
+    Number _ Nothing <- shape t,
+    end (place t) == start region =
+    [ Fix.exchange
+        "Write the inches as in."
+        (Region (start region) (start region + 1))
+        " in"
+    ]
+  | otherwise =
+    [ Fix.insertion "Write \" at the end of the line." (end region) "\""
+      | t : _ <- [reverse (before around)],
+        shape t `elem` map Word ["part", "import", "machine", "table"]
+    ]
 
 -- Numbers and units
 
@@ -168,8 +191,9 @@ unitMeant word = listToMaybe ([u | u <- units, u == small] <> [u | (w, u) <- oth
           map (,"in") (Text.words "inch inches дюйм дюйма"),
           map (,"deg") (Text.words "degree degrees degs grad град градус градусов гр"),
           map (,"rad") (Text.words "radian radians рад радиан"),
-          map (,"mm/min") (Text.words "mmpm"),
-          map (,"rpm") (Text.words "об r/min revs")
+          map (,"mm/min") (Text.words "mmpm mm_min mmmin mm_per_min"),
+          map (,"in/min") (Text.words "ipm inpm"),
+          map (,"rpm") (Text.words "об r/min revs rev upm u/min revolutions")
         ]
 
 -- | Fixes for a text that begins like a number but is none.

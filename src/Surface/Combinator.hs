@@ -29,6 +29,7 @@ module Surface.Combinator
     name,
     usedName,
     onThisLine,
+    onSameLine,
     endOfLine,
     located,
 
@@ -53,6 +54,7 @@ import Base.Region (Located (..), Region (..))
 import Base.Region qualified as Region
 import Control.Monad (void, when)
 import Control.Monad.State.Strict (State, get, lift, modify', runState)
+import Data.Char (isAlphaNum)
 import Data.List (sortOn)
 import Data.List.NonEmpty (NonEmpty (..))
 import Data.List.NonEmpty qualified as NonEmpty
@@ -69,6 +71,7 @@ import Surface.Syntax (Expr, Statement, Statement_ (..))
 import Surface.Token (Token (..), Token_ (..))
 import Surface.Token qualified as Token
 import Surface.TokenStream (TokenStream (..))
+import Surface.WordMeaning (statementMeant, typeWords)
 import Text.Megaparsec (MonadParsec, ParseError (..), ParsecT, (<?>))
 import Text.Megaparsec qualified as Parsec
 
@@ -219,6 +222,16 @@ onThisLine p = do
     t : _ | newLine t -> Parsec.empty
     _ -> p
 {-# INLINEABLE onThisLine #-}
+
+-- | Runs a parser for something that has to be on the line of the last token consumed. The text
+-- describes it in the report of a line that ends before it.
+onSameLine :: Grammar p => Text -> p a -> p a
+onSameLine what p = do
+  next <- remaining
+  case next of
+    t : _ | newLine t -> Parsec.customFailure (LineEnds what)
+    _ -> p
+{-# INLINEABLE onSameLine #-}
 
 -- | Demands the end of the line or, in a block of statements, the closing brace of the block. The
 -- brace is not consumed.
@@ -460,9 +473,15 @@ isStatementEnd hasBlock isInBlock open t others =
         | Word _ <- shape next ->
           open <= 0
             && newLine t
+            && (isInBlock || not (closesBeforeStatement others))
             && not (newLine next)
             && not (Keyword.isReserved word || Keyword.beginsItem word)
       _ -> False
+
+-- | Tells if a brace that closes nothing comes before the next statement, as in a block whose
+-- opening brace is missing.
+closesBeforeStatement :: [Token] -> Bool
+closesBeforeStatement = closesBlock . takeWhile (not . beginsStatement)
 
 -- | Tells if tokens begin a statement that has a block of statements.
 beginsBlock :: [Token] -> Bool
@@ -482,15 +501,29 @@ braceBalance = sum . map balance
 -- | The keyword of a broken statement, with its spelling corrected, and the name that the statement
 -- defines, judged by its first two tokens. 'Nothing' for each that cannot be found.
 keywordAndName :: [Token] -> (Maybe Text, Maybe (Located Name))
-keywordAndName ts = case map shape (take 2 ts) of
-  [Word word, Word what]
-    | not (Keyword.isReserved what) ->
-      (corrected word, Just (Located (firstRegion (drop 1 ts)) (Name what)))
-  Word word : _ -> (corrected word, Nothing)
+keywordAndName ts = case map shape (take 1 ts) of
+  [Word word] ->
+    let keyword' = corrected word
+     in (keyword', if keyword' `elem` map Just defining then listToMaybe names else Nothing)
   _ -> (Nothing, Nothing)
   where
-    corrected word = listToMaybe (filter (== word) known <> Name.nearest word known)
+    corrected word =
+      listToMaybe
+        ( filter (== word) known
+            <> Name.nearest word known
+            <> [w | Just meant <- [statementMeant word], w <- take 1 (Text.words meant)]
+        )
     known = Keyword.statements <> Keyword.softStatements
+    defining = Text.words "let param contour table curve piece"
+    names =
+      [ Located (Token.place t) (Name what)
+        | t <- takeWhile ((`notElem` map Symbol ["=", "{"]) . shape) (take 3 (drop 1 ts)),
+          Just what <- [nameOf (shape t)]
+      ]
+    nameOf token' = case token' of
+      Word what | not (Keyword.isReserved what || what `elem` typeWords) -> Just what
+      Text what | Text.all isAlphaNum what -> Just what
+      _ -> Nothing
 
 firstRegion :: [Token] -> Region
 firstRegion ts = case ts of

@@ -6,6 +6,9 @@ module Surface.Error
     FoundText (..),
     Enclosure (..),
     toReport,
+    failureOf,
+    withRepairs,
+    merged,
     valueHint,
   )
 where
@@ -13,13 +16,13 @@ where
 import Base.Decimal qualified as Decimal
 import Base.Name qualified as Name
 import Base.Region (Region (..))
-import Data.Char (GeneralCategory (..), generalCategory, isLetter, ord)
-import Data.List.NonEmpty (NonEmpty)
+import Data.List (find, partition)
+import Data.List.NonEmpty (NonEmpty (..))
 import Data.List.NonEmpty qualified as NonEmpty
 import Data.Maybe (listToMaybe)
 import Data.Text (Text)
 import Data.Text qualified as Text
-import Numeric (showHex)
+import Report.Fix (Fix)
 import Report.Fix qualified as Fix
 import Report.Report
   ( Label (..),
@@ -30,12 +33,16 @@ import Report.Report
     quote,
     report,
   )
+import Report.Report qualified as Report
 import Surface.CharacterFix qualified as CharacterFix
-import Surface.Foreign (ForeignLanguage (..), ForeignLine (translation, written))
-import Surface.Foreign qualified as Foreign
+import Surface.CharacterReport (strayHint, strayTitle)
+import Surface.Foreign (ForeignLanguage, ForeignLine)
+import Surface.ForeignReport (foreignReport)
 import Surface.Keyword qualified as Keyword
 import Surface.RowFix qualified as RowFix
-import Surface.Token (Numeral (..), Token (..), Token_ (..), describe, unitName)
+import Surface.StatementForm qualified as StatementForm
+import Surface.Token (Numeral (..), Token (shape), Token_ (..), describe, unitName)
+import Surface.Token qualified as Surface
 import Surface.TokenContext (TokenContext (..))
 import Surface.TokenFix qualified as TokenFix
 
@@ -49,10 +56,12 @@ data Error
   | -- | a word that begins no statement: the word, the keywords that begin a statement, the tokens
     -- around the word
     UnknownStatement Region Text [Text] TokenContext
+  | -- | the same mistake at several places: the first error and the others
+    Repeated Error (NonEmpty Error)
   | -- | lines of another language: the language, and the lines
     ForeignLines Region ForeignLanguage (NonEmpty ForeignLine)
   | -- | a reserved word where a name is defined: the word, a similar name that is free
-    Reserved Region Text Text
+    Reserved Region Text Text ~[Fix]
   | -- | a token after a complete statement on the same line
     Trailing Region Token_ TokenContext
   | -- | a token that begins no cell, in a row of a table
@@ -125,7 +134,10 @@ toReport err = case err of
   Unexpected region (FoundToken OpenText) _ around ->
     (at region "E0103" "this text has no closing quotation mark")
       { fixes = CharacterFix.textFixes region around,
-        hints = ["A text begins and ends with \" on one line."]
+        hints =
+          [ "A text begins and ends with \" on one line."
+            | null (CharacterFix.textFixes region around)
+          ]
       }
   Unexpected region (FoundToken (BadNumber text)) _ around ->
     (at region "E0104" (quote text <> " is neither a number nor a name"))
@@ -136,19 +148,18 @@ toReport err = case err of
           ]
       }
   Unexpected region found expected around ->
-    (at region "E0101" (unexpectedTitle region found expected around))
-      { fixes = case found of
-          FoundToken token -> TokenFix.unexpectedFixes region token expected around
-          FoundEnd -> [],
-        hints = case found of
-          FoundToken (Symbol "=")
-            | quote "closed" `elem` expected ->
-              ["The name of a contour is followed by its kind: contour name closed { … }"]
-          FoundToken token
-            | not (isWord expected) -> advice token around
-          FoundToken _ -> []
-          FoundEnd -> []
+    (at (gapRegion region expected around) "E0101" (unexpectedTitle region found expected around))
+      { fixes = mends,
+        hints = if null mends then advised else []
       }
+    where
+      mends = case found of
+        FoundToken token -> TokenFix.unexpectedFixes region token expected around
+        FoundEnd -> repairs around
+      advised = case found of
+        FoundToken token
+          | hint : _ <- advice token around -> [hint]
+        _ -> StatementForm.formHint (StatementForm.isItemStart expected) around
   Unclosed region opened what around ->
     (at region "E0105" (enclosureWords what <> " is not closed"))
       { label = "the closing bracket belongs before this",
@@ -160,33 +171,50 @@ toReport err = case err of
   UnknownStatement region word known around ->
     let mends = TokenFix.statementFixes region word known around
      in (at region "E0106" ("no statement begins with " <> quote word))
-          { message = ["A statement begins with one of: " <> Text.intercalate ", " known <> "."],
+          { message =
+              [ "A statement begins with one of: " <> Text.intercalate ", " known <> "."
+                | null mends
+              ],
             fixes = mends,
             hints =
               lookAlikeHint word known
                 <> [ "The setting " <> word
                        <> " belongs in the braces of mill, pocket, turn or drill."
-                     | Keyword.beginsItem word
+                     | null mends,
+                       Keyword.beginsItem word
                    ]
                 <> [ "To give a name to a value, write: let " <> word <> " = …"
                      | null mends,
                        not (Keyword.beginsItem word)
                    ]
           }
+  Repeated first others' -> repeatedReport (toReport first) (map toReport (NonEmpty.toList others'))
   ForeignLines region language ls -> foreignReport region language (NonEmpty.toList ls)
-  Reserved region word free ->
+  Reserved region word free mends ->
     (at region "E0107" (quote word <> " is a word of the language and cannot be a name"))
-      { fixes = [Fix.exchange ("Name it " <> free <> ".") region free]
+      { fixes =
+          if null mends
+            then [Fix.exchange ("Name it " <> free <> ".") region free]
+            else mends
       }
   Trailing region token around
     | isBroken token ->
       toReport (Unexpected region (FoundToken token) [] around)
   Trailing region token around ->
     (at region "E0108" (trailingTitle region token around))
-      { message = ["Every statement begins on a line of its own."],
-        fixes = TokenFix.trailingFixes region token around,
-        hints = advice token around
+      { message =
+          [ "Every statement begins on a line of its own."
+            | Word word <- [token],
+              null mends || word `elem` Keyword.statements
+          ],
+        fixes = mends,
+        hints =
+          if null mends
+            then take 1 (advice token around <> StatementForm.formHint False around)
+            else []
       }
+    where
+      mends = TokenFix.trailingFixes region token around
   NotInRow region token around
     | isBroken token && token `notElem` map Stray [';', '|'] ->
       toReport (Unexpected region (FoundToken token) [] around)
@@ -200,17 +228,26 @@ toReport err = case err of
       toReport (Unexpected region (FoundToken token) [] around)
   NotInHeadings region token around ->
     (at region "E0120" (describe token <> " does not belong among the names of columns"))
-      { fixes = RowFix.headingFixes region token around,
-        hints = RowFix.headingAdvice token
+      { fixes =
+          if null (repairs around)
+            then RowFix.headingFixes region token around
+            else repairs around,
+        hints = if null (repairs around) then RowFix.headingAdvice token else []
       }
   NoSide region found around ->
-    (at region "E0101" (unexpectedTitle region found (map quote ["left", "right"]) around))
+    ( at
+        (gapRegion region sides around)
+        "E0101"
+        (unexpectedTitle region found sides around)
+    )
       { fixes = TokenFix.sideFixes region (tokenOf found) around,
         hints =
           [ "The word says on which side of its curve the piece lies, seen in the direction of \
             \travel: piece q = c left"
           ]
       }
+    where
+      sides = map quote ["left", "right"]
   Misplaced region word outer around ->
     (at region "E0109" (quote word <> " is a statement and does not belong in these braces"))
       { message =
@@ -321,6 +358,107 @@ toReport err = case err of
   TooDeep region limit ->
     at region "E0110" ("brackets are nested more than " <> Decimal.whole limit <> " deep")
 
+-- | The report of the same mistake at several places.
+repeatedReport :: Report -> [Report] -> Report
+repeatedReport first others' =
+  first
+    { others = others first <> [Label r "here too" | InSource r <- map place' (take 4 others')],
+      message =
+        message first
+          <> [ Decimal.whole (length others' + 1) <> " places have the same mistake."
+               | length others' > 4
+             ],
+      fixes =
+        [ if all (== f) fs
+            then f
+            else
+              Fix.joined
+                (Text.dropWhileEnd (== '.') (Fix.title f) <> "; likewise at the other places.")
+                (f : fs)
+          | f <- fixes first,
+            Just fs <- [traverse (find (isLike f) . fixes) others']
+        ]
+    }
+  where
+    place' = Report.place
+    isLike f g = kindOf f == kindOf g
+    kindOf = Text.takeWhile (/= ':') . Fix.title
+
+-- | Errors of which those that are the same mistake at several places are one, and those that the
+-- repair of an error before them mends are gone.
+merged :: [Error] -> [Error]
+merged errors = case errors of
+  [] -> []
+  e : rest -> case partition (isSame e) (filter (not . isMended e) rest) of
+    ([], others') -> e : merged others'
+    (o : more, others') -> Repeated e (o :| more) : merged others'
+  where
+    isSame a b = case (repetitionOf a, repetitionOf b) of
+      (Just k, Just l) -> k == l
+      _ -> False
+
+-- | True if the only repair of the statement of the first error changes the place of the second.
+isMended :: Error -> Error -> Bool
+isMended e later = case (e, contextOf later) of
+  (Reserved _ word _ _, Just _)
+    | Unexpected _ (FoundToken (Word word')) expected _ <- later ->
+      word == word' && "a value" `elem` expected
+  (Unexpected _ _ _ around, Just own)
+    | lastOf around == lastOf own,
+      [fix] <- repairs around,
+      not (Fix.isProposal fix),
+      Just (region, _) <- failureOf later ->
+      or [start r < start region && end region <= end r | r <- map Fix.replaced (Fix.edits fix)]
+  _ -> False
+  where
+    lastOf c = listToMaybe (reverse (before c))
+
+contextOf :: Error -> Maybe TokenContext
+contextOf e = case e of
+  Unexpected _ _ _ around -> Just around
+  Trailing _ _ around -> Just around
+  _ -> Nothing
+
+-- | The mark that is equal for the same mistake at several places: a sign in one statement, or a
+-- character of no statement in the whole text.
+repetitionOf :: Error -> Maybe (Int, Token_, Maybe Token)
+repetitionOf e = case e of
+  Unexpected _ (FoundToken (Stray c)) _ _ -> Just (0, Stray c, Nothing)
+  Unexpected _ (FoundToken (Symbol s)) _ around
+    | s `elem` [",", "=", "-"] -> Just (1, Symbol s, statement around)
+  Trailing _ token around
+    | TokenFix.isDecimalComma token around -> Just (2, token, Nothing)
+  NotInRow _ token@(Symbol _) around
+    | TokenFix.isDecimalComma token around -> Just (5, token, statement around)
+    | token == Symbol "," -> Just (3, token, statement around)
+  NotInHeadings _ (Number _ _) around -> Just (4, Symbol "0", statement around)
+  _ -> Nothing
+  where
+    statement around = listToMaybe (reverse (before around))
+
+-- | The region of an error at which a statement cannot be parsed, and the expected tokens in words.
+failureOf :: Error -> Maybe (Region, [Text])
+failureOf e = case e of
+  Unexpected region _ expected _ -> Just (region, expected)
+  Trailing region _ _ -> Just (region, [])
+  _ -> case Report.place (toReport e) of
+    InSource region -> Just (region, [])
+    _ -> Nothing
+
+-- | An error with the repairs that a function gives for its region and its expected tokens, if
+-- these are all that is wrong with the statement.
+withRepairs :: (Region -> [Text] -> [Fix]) -> Error -> Error
+withRepairs repairsFor e = case e of
+  Unexpected region found expected around ->
+    Unexpected region found expected around {repairs = repairsFor region expected}
+  Trailing region token around -> Trailing region token around {repairs = repairsFor region []}
+  UnknownStatement region word known around ->
+    UnknownStatement region word known around {repairs = repairsFor region (map quote known)}
+  NotInHeadings region token around ->
+    NotInHeadings region token around {repairs = repairsFor region []}
+  Reserved region word free _ -> Reserved region word free (repairsFor region ["a name"])
+  _ -> e
+
 -- | The hint that shows how the command line gives a value to the parameter @name@.
 valueHint :: Text -> Text
 valueHint name = "Write a value as in the program, for example: --set " <> name <> "=\"25 mm\""
@@ -347,15 +485,19 @@ advice :: Token_ -> TokenContext -> [Text]
 advice token around = case (token, shape <$> listToMaybe (before around)) of
   (Symbol ",", _)
     | TokenFix.isDecimalComma token around -> []
-  (Symbol ",", _) ->
-    [ "The elements of a contour follow one another without commas, and a point is in brackets: \
-      \(0, 0)."
-    ]
+  (Symbol ",", _)
+    | StatementForm.blockWord around == "contour" ->
+      [ "The elements of a contour follow one another without commas, and a point is in brackets: \
+        \(0, 0)."
+      ]
   (Symbol "*", Just (Symbol "*")) -> ["There are no powers: write x * x."]
   (Symbol "=", Just (Symbol "=")) -> []
-  (Symbol "=", _) -> ["To give a name to a value, write: let name = value"]
+  (Symbol "=", _)
+    | StatementForm.blockWord around `elem` ["let", "param", "contour", ""] ->
+      ["To give a name to a value, write: let name = value"]
   (Word word, Just (Number _ _))
     | not (Keyword.isReserved word),
+      not (isLineStart around),
       Nothing <- CharacterFix.unitMeant word ->
       [ "If "
           <> quote word
@@ -370,6 +512,17 @@ tokenOf found = case found of
   FoundToken token -> Just token
   FoundEnd -> Nothing
 
+-- | The region of the report of an unexpected token: that of the token before it, if that one's
+-- line ends too early.
+gapRegion :: Region -> [Text] -> TokenContext -> Region
+gapRegion region expected around = maybe region Surface.place (endedAt expected around)
+
+-- | The last token of a line that ends too early, before a token that begins the next line.
+endedAt :: [Text] -> TokenContext -> Maybe Token
+endedAt expected around
+  | isLineStart around && not (StatementForm.isItemStart expected) = listToMaybe (before around)
+  | otherwise = Nothing
+
 -- | Title of the report of an unexpected token.
 unexpectedTitle :: Region -> FoundText -> [Text] -> TokenContext -> Text
 unexpectedTitle region found expected around = case found of
@@ -377,13 +530,20 @@ unexpectedTitle region found expected around = case found of
   FoundToken token -> case signTitle region token around of
     Just title -> title
     Nothing
+      | Just t <- endedAt expected around,
+        not (null expected) ->
+        wanted <> " is needed after " <> describe (shape t) <> ", but the line ends"
+      | Just title <- StatementForm.settingTitle token expected around -> title
       | null expected -> describe token <> " does not belong here"
       | otherwise -> needed <> ", not " <> describe token
   where
-    needed = case expected of
-      [] -> "more is needed here"
-      [one] -> one <> " is needed here"
-      many' -> Text.intercalate ", " (init many') <> " or " <> last many' <> " is needed here"
+    needed = if null expected then "more is needed here" else wanted <> " is needed here"
+    wanted = case filter isTold expected of
+      [] -> "more"
+      [one] -> one
+      many' -> Text.intercalate ", " (init many') <> " or " <> last many'
+    -- A value may begin with if, which is of no interest here.
+    isTold word = word /= quote "if" || "a value" `notElem` expected
 
 -- | Title of the report of a token after a complete statement.
 trailingTitle :: Region -> Token_ -> TokenContext -> Text
@@ -411,23 +571,6 @@ signTitle region token around = case (token, map shape (before around), map shap
       Just ("there is a space between " <> quote word <> " and the bracket of its arguments")
   _ -> Nothing
 
--- | Title of the report of a character that has no place in a program.
-strayTitle :: Char -> Text
-strayTitle c
-  | generalCategory c `elem` [Format, Control] =
-    "the invisible character U+" <> codePoint c <> " has no place in a program"
-  | otherwise =
-    "the character "
-      <> quote (Text.singleton c)
-      <> (if Text.null name then "" else ", " <> name <> ",")
-      <> " has no place in a program"
-  where
-    name = CharacterFix.characterName c
-
--- | Number of a character in hexadecimal digits.
-codePoint :: Char -> Text
-codePoint c = Text.justifyRight 4 '0' (Text.toUpper (Text.pack (showHex (ord c) "")))
-
 -- | Names the letters of the other alphabet in a word that looks like a known one.
 lookAlikeHint :: Text -> [Text] -> [Text]
 lookAlikeHint word known =
@@ -439,79 +582,8 @@ lookAlikeHint word known =
   where
     alphabet c = if c > '~' then "Cyrillic" else "Latin"
 
--- | The report of lines of another language.
-foreignReport :: Region -> ForeignLanguage -> [ForeignLine] -> Report
-foreignReport region language ls =
-  ( at
-      region
-      "E0121"
-      ( case ls of
-          [_] -> "this line is " <> languageName language <> ", not a part program"
-          _ ->
-            Decimal.whole (length ls)
-              <> " lines from here on are "
-              <> languageName language
-              <> ", not a part program"
-      )
-  )
-    { message =
-        [ quote (written l) <> " is written: " <> Text.replace "\n" "; " (translation l)
-          | l <- take 3 translated
-        ],
-      fixes =
-        [ Fix.proposed
-            ( Fix.joined
-                (allOfThem <> " in the language of part programs.")
-                (map inOwn ls)
-            )
-          | not (null translated)
-        ]
-          <> [Fix.proposed (Fix.joined (comments <> ".") (map asComment ls))],
-      hints = [languageHint language]
-    }
-  where
-    translated = filter (not . Text.null . translation) ls
-    allOfThem = if length ls == 1 then "Write the line" else "Write the lines"
-    comments = if length ls == 1 then "Make the line a comment" else "Make the lines comments"
-    asComment l = Fix.exchange "" (Foreign.place l) ("-- " <> written l)
-    inOwn l
-      | Text.null (translation l) = asComment l
-      | otherwise = Fix.exchange "" (Foreign.place l) (translation l)
-
-languageName :: ForeignLanguage -> Text
-languageName language = case language of
-  GCode -> "G-code"
-  Apt -> "APT"
-  C -> "C"
-  Python -> "Python"
-  Basic -> "Basic"
-
--- | The way in which programs say what is usual in another language.
-languageHint :: ForeignLanguage -> Text
-languageHint language = case language of
-  GCode ->
-    "A program describes the part, and partc computes the frames: write contour NAME closed { … } \
-    \and mill NAME outside { … }."
-  Apt ->
-    "The elements of a contour follow one another in contour NAME open { … }; the cutter is led \
-    \along it by mill NAME left { … }."
-  C ->
-    "A value gets its name with let NAME = …, and a statement ends with its line."
-  Python ->
-    "A function is let f(x) = …, and a repetition is for i in 0..9 { … }. Functions such as sin \
-    \need no import."
-  Basic ->
-    "A value gets its name with let NAME = …, and a repetition is for i in 1..10 { … }."
-
 counted :: Int -> Text -> Text
 counted n thing = Decimal.whole n <> " " <> thing <> (if n == 1 then "" else "s")
-
--- | Tells if exactly one token is expected, and it is a keyword. The report names this keyword and
--- leaves 'advice' out.
-isWord :: [Text] -> Bool
-isWord expected = case expected of
-  [one] -> Text.any isLetter one && Text.isPrefixOf "‘" one
-  _ -> False
 
 -- | Tells if a token is wrong at every position of a program, such as a stray character.
 isBroken :: Token_ -> Bool
@@ -526,12 +598,3 @@ isBroken token = case token of
 
 at :: Region -> ReportCode -> Text -> Report
 at region code = report Error code (InSource region)
-
-strayHint :: Char -> TokenContext -> [Text]
-strayHint c around
-  | c `elem` ("“”„«»'" :: String) = ["A text begins and ends with the straight mark \"."]
-  | c == '^' = ["There are no powers: write x * x, and sqrt(x) for a root."]
-  | c == '±' = ["A tolerance is a statement of its own: tolerance 0.02 mm"]
-  | c == ';' && not (null (after around)) = ["If a comment begins here, write --."]
-  | c == '.' = ["A number has digits before its point: 0.5, 5.0 or 5."]
-  | otherwise = []

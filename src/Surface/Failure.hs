@@ -36,6 +36,8 @@ data Problem
     NoStatement Text
   | -- | a reserved word where a statement should define a name
     NoName Text
+  | -- | the end of a line before something that has to be on it, which the text describes
+    LineEnds Text
   | -- | a token after a complete statement on the same line
     TextAfterStatement Token_
   | -- | a token that begins no cell, in a row of a table
@@ -71,7 +73,8 @@ fromFailure ts finish failure = case failure of
         word
         (Keyword.statements <> Keyword.softStatements <> Keyword.blocks)
         around
-    NoName word -> Error.Reserved region word (freeName ts word)
+    NoName word -> Error.Reserved region word (freeName ts word) []
+    LineEnds what -> Error.Unexpected region found [what] around
     TextAfterStatement shape' -> Error.Trailing region shape' around
     NotInRow shape' -> Error.NotInRow region shape' around
     NotInHeadings shape' -> Error.NotInHeadings region shape' around
@@ -99,7 +102,8 @@ surroundings ts index =
   TokenContext
     { before = statement,
       after = line,
-      isLineStart = maybe True newLine (ts Vector.!? index)
+      isLineStart = maybe True newLine (ts Vector.!? index),
+      repairs = []
     }
   where
     statement = upToStart (Vector.toList (Vector.reverse (Vector.take index ts)))

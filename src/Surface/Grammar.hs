@@ -71,8 +71,8 @@ statementForms =
   [ ("part", Part <$> name <*> Parsec.optional (onThisLine text')),
     ("machine", Machine <$> (onThisLine (located machine) <?> "the name of a machine")),
     ("import", Import <$> (text' <?> "the name of a file in quotation marks")),
-    ("tool", Tool <$> cutter),
-    ("feed", Feed <$> expr),
+    ("tool", Tool <$> onSameLine "a cutter" cutter),
+    ("feed", Feed <$> onSameLine "a feed" expr),
     ("tolerance", Tolerance <$> accuracy),
     ("clearance", Clearance <$> expr),
     ("from", From <$> expr),
@@ -95,7 +95,7 @@ statementForms =
     ),
     ("rapid", Travel RapidMotion <$> stops),
     ("move", Travel FeedMotion <$> stops),
-    ("change", Change <$> expr <*> cutter),
+    ("change", Change <$> onSameLine "the number of a tool" expr <*> onSameLine "a cutter" cutter),
     ("spindle", Spindle <$> spin),
     ("coolant", Coolant <$> ((SwitchOn <$ keyword "on") <|> (SwitchOff <$ keyword "off"))),
     ("aux", Auxiliary <$> expr),
@@ -315,8 +315,10 @@ link =
   (keyword "meet" *> (Meet <$> Parsec.optional (keyword "near" *> expr)))
     <|> (Smooth <$ keyword "smooth")
     <|> (Tangent <$ keyword "tangent")
-    <|> (keyword "fillet" *> Parsec.optional (symbol "+") *> (Fillet <$> expr))
-    <|> (keyword "chamfer" *> (Chamfer <$> expr))
+    <|> (keyword "fillet" *> Parsec.optional (symbol "+") *> (Fillet <$> radius))
+    <|> (keyword "chamfer" *> (Chamfer <$> onSameLine "a length" expr))
+  where
+    radius = onSameLine "a radius" expr
 
 -- | A machining statement after its keyword @word@: a contour, a side, and settings. @make@ makes
 -- the statement from these three.
@@ -360,12 +362,12 @@ settingForms :: Grammar p => [(Text, p Setting_)]
 settingForms =
   [ ("approach", Approach <$> stops),
     ("retract", Retract <$> stops),
-    ("depth", Depth <$> expr <*> Parsec.optional (keyword "step" *> expr)),
+    ("depth", Depth <$> onSameLine "a depth" expr <*> Parsec.optional (keyword "step" *> expr)),
     ( "lead",
       LeadBy
         <$> ((LeadIn <$ keyword "in") <|> (LeadOut <$ keyword "out"))
           <*> ((LeadLine <$ keyword "line") <|> (LeadArc <$ keyword "arc"))
-          <*> expr
+          <*> onSameLine "a length" expr
     ),
     ("allowance", Allowances <$> (expr `sepBy1` ",")),
     ("corners", CornerStyle <$> ((Round <$ keyword "round") <|> (Sharp <$ keyword "sharp"))),
@@ -376,8 +378,8 @@ settingForms =
         <$> ((ByCompiler <$ keyword "compiler") <|> (ByController <$ keyword "controller"))
     ),
     ("start", keyword "near" *> (StartNear <$> expr)),
-    ("plunge", Plunge <$> expr),
-    ("peck", Peck <$> expr),
+    ("plunge", Plunge <$> onSameLine "a feed" expr),
+    ("peck", Peck <$> onSameLine "a depth" expr),
     ("islands", Islands <$> (expr `sepBy1` ",")),
     ("rest", RestAllowed <$ keyword "allowed")
   ]

@@ -11,7 +11,7 @@ module Surface.Parser
 where
 
 import Base.Name (Name (..))
-import Base.Region (Located (..))
+import Base.Region (Located (..), Region (..))
 import Base.Result (Result (..))
 import Data.List (sortOn)
 import Data.List.NonEmpty qualified as NonEmpty
@@ -28,7 +28,9 @@ import Surface.Foreign qualified as Foreign
 import Surface.Grammar qualified as Grammar
 import Surface.Lexer qualified as Lexer
 import Surface.Parser.Fast qualified as FastParser
+import Surface.StatementRepair qualified as StatementRepair
 import Surface.Syntax
+import Surface.Token (Token (place, shape), Token_ (..))
 import Surface.Token qualified as Token
 
 -- | Parses a program whose text begins at the offset @begin@. The output holds all statements,
@@ -57,7 +59,7 @@ parseExplained begin text = case drop maxTokens tokens of
     Just found -> withoutForeign begin text found
   where
     (tokens, comments) = Lexer.tokens begin text
-    (errors, parsed) = run Grammar.explainedProgram (begin + Text.length text) tokens
+    (errors, parsed) = explained begin text tokens
     regionOf e = case Report.place (Error.toReport e) of
       InSource region -> Just region
       InTape _ -> Nothing
@@ -87,7 +89,41 @@ withoutForeign begin text found =
   where
     ls = Foreign.lines' found
     (tokens, comments) = Lexer.tokens begin (Foreign.blanked begin text found)
+    (errors, parsed) = explained begin text tokens
+
+-- | The errors of a program with the repairs of its statements, and the program. @text@ begins at
+-- the offset @begin@ and has the given tokens.
+explained :: Int -> Text -> [Token] -> ([Error], Maybe [Statement])
+explained begin text tokens = (Error.merged (map (renaming . mended) errors), parsed)
+  where
     (errors, parsed) = run Grammar.explainedProgram (begin + Text.length text) tokens
+    mended = Error.withRepairs $ \region expected ->
+      let (statement, index) = StatementRepair.statementAround tokens region
+       in if null expected && map shape (take 1 statement) == [Word "table"]
+            then StatementRepair.transposed statement
+            else StatementRepair.repairs trial statement index expected
+    renaming e = case e of
+      Error.Reserved region word free mends
+        | null mends ->
+          Error.Reserved region word free (StatementRepair.renamed tokens region word free)
+      _ -> e
+
+-- | Parses the tokens of one statement. Gives the indices of the tokens at which parsing fails,
+-- each with the expected tokens in words.
+trial :: StatementRepair.Trial
+trial tokens =
+  [ (start failed `div` 2, expected)
+    | Just (failed, expected) <- map Error.failureOf errors
+  ]
+  where
+    -- The token with the index k has the region from 2 k to 2 k + 1.
+    errors =
+      fst
+        ( run
+            Grammar.explainedProgram
+            (2 * length tokens)
+            (zipWith (\k t -> t {place = Region (2 * k) (2 * k + 1)}) [0 ..] tokens)
+        )
 
 -- | Broken statement in place of a line of another language. It has the keyword and the name of the
 -- statement that says the same.

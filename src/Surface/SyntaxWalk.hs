@@ -8,14 +8,28 @@ module Surface.SyntaxWalk
     ofSetting,
     parts,
     everywhere,
+    isRadians,
   )
 where
 
-import Base.Name (Name)
+import Base.Name (Name (..))
 import Base.Region (Located (..))
 import Data.List.NonEmpty qualified as NonEmpty
 import Data.Maybe (maybeToList)
 import Surface.Syntax
+
+-- | True of a number that is computed of @pi@ and of numbers without units by multiplication and
+-- division, such as @2 * pi / 3@.
+isRadians :: Expr -> Bool
+isRadians e = hasPi e && isPlain e
+  where
+    hasPi x = or [True | Located _ (Variable (Name "pi")) <- everywhere x]
+    isPlain (Located _ x) = case x of
+      Literal _ Nothing -> True
+      Variable (Name "pi") -> True
+      Negate y -> isPlain y
+      Binary op l r -> op `elem` [Multiply, Divide] && isPlain l && isPlain r
+      _ -> False
 
 -- | A statement and all statements in its blocks, the outer ones first.
 statementsIn :: Statement -> [Statement]

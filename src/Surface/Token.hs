@@ -6,10 +6,13 @@ module Surface.Token
     Unit (..),
     unitName,
     columnUnits,
+    spelling,
+    scaledDigits,
     describe,
   )
 where
 
+import Base.Decimal qualified as Decimal
 import Base.Region (Region)
 import Data.Text (Text)
 import Data.Text qualified as Text
@@ -79,6 +82,21 @@ unitName unit = case unit of
 -- | The units that a column of a table can have: those of lengths and angles.
 columnUnits :: [Unit]
 columnUnits = [Millimetre, Centimetre, Metre, Inch, Degree, Radian]
+
+-- | A token as a program writes it; a number and its unit have one space between them.
+spelling :: Token_ -> Text
+spelling token = case token of
+  Word text -> text
+  Number value unit -> digits value <> maybe "" ((" " <>) . unitName) unit
+  Text text -> "\"" <> text <> "\""
+  Symbol text -> text
+  BadNumber text -> text
+  OpenText -> "\""
+  Stray c -> Text.singleton c
+
+-- | The digits of a multiple of a number, to six places after the point.
+scaledDigits :: Double -> Numeral -> Text
+scaledDigits factor n = Decimal.short 6 (factor * amount n)
 
 -- | Describes a token in the words of a report. A word or a number of more than 60 characters is
 -- shortened.

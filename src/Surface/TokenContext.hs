@@ -7,6 +7,7 @@ module Surface.TokenContext
 where
 
 import Data.Maybe (listToMaybe)
+import Report.Fix (Fix)
 import Surface.Token (Token)
 
 -- | Tokens of the statement around a wrong token.
@@ -16,7 +17,10 @@ data TokenContext = TokenContext
     -- | tokens after the wrong one on its line, the nearest first
     after :: [Token],
     -- | true if the wrong token is the first one on its line, or the end of the text
-    isLineStart :: Bool
+    isLineStart :: Bool,
+    -- | repairs of the statement, with which it can be parsed; lazy, because they are searched for
+    -- only if the report is shown
+    repairs :: ~[Fix]
   }
   deriving stock (Eq, Ord, Show)
 

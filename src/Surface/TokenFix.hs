@@ -23,8 +23,9 @@ import Report.Fix qualified as Fix
 import Report.Report (quote)
 import Surface.CharacterFix (powerFixes, unitMeant)
 import Surface.Keyword qualified as Keyword
-import Surface.Token (Token (..), Token_ (..), describe)
+import Surface.Token (Token (..), Token_ (..), describe, scaledDigits)
 import Surface.TokenContext (TokenContext (..), following, previous)
+import Surface.WordMeaning (statementMeant, typeWords)
 
 -- | True of a comma between two parts of a number, as in @1,5@.
 isDecimalComma :: Token_ -> TokenContext -> Bool
@@ -40,7 +41,7 @@ isCallApart token region around = case (token, previous around) of
     | Word word <- shape t ->
       end (place t) < start region
         && not (Keyword.isReserved word || Keyword.beginsItem word)
-        && word `notElem` soft
+        && word `notElem` soft <> Text.words "point points pt vector"
   _ -> False
   where
     soft = Text.words "cipher joggle depth step radius to by gear height diameter nose with"
@@ -53,12 +54,13 @@ unexpectedFixes region token expected around =
   firstFixes
     [ labelFixes token around,
       signFixes region token around,
+      repairs around,
       meant,
       equalsFixes region token words' around,
       bracketFixes,
       commaFixes token words' around,
-      danglingFixes region around expected,
-      missingWords region token words' around
+      danglingFixes token around expected,
+      cutterFixes region token words'
     ]
   where
     words' =
@@ -102,7 +104,6 @@ equalsFixes region token words' around
     [ Fix.proposed (Fix.exchange ("Write " <> w <> " instead of =.") region w)
       | w <- ["closed", "open"]
     ]
-  | [t] <- before around, newLine t = leftOut
   | otherwise = []
   where
     leftOut = [Fix.removal "Leave the sign = out." region]
@@ -112,54 +113,21 @@ firstFixes :: [[Fix]] -> [Fix]
 firstFixes = concat . take 1 . filter (not . null)
 
 -- | Fixes for operators and commas after which nothing comes.
-danglingFixes :: Region -> TokenContext -> [Text] -> [Fix]
-danglingFixes _ around expected = case previous around of
+danglingFixes :: Token_ -> TokenContext -> [Text] -> [Fix]
+danglingFixes token around expected = case previous around of
   Just t
     | "a value" `elem` expected,
+      isLineStart around || token `elem` map Symbol [")", "]", "}"],
       Symbol s <- shape t,
       s `elem` [",", "+", "-", "*", "/"] ->
       [Fix.proposed (Fix.removal ("Leave the sign " <> s <> " out.") (place t))]
   _ -> []
 
--- | Proposals to write one of the expected words or signs before a token. They are made only for
--- words after which nothing else can be missing.
-missingWords :: Region -> Token_ -> [Text] -> TokenContext -> [Fix]
-missingWords region token words' around = case (filter isPossible words', token) of
-  _
-    | "mill" `elem` words',
-      Number _ _ <- token ->
-      [cutterFix region kind | kind <- ["mill", "drill"], kind `elem` words']
-  ([w], _) | length words' == 1 -> [put w]
-  (fitting, _) -> map (Fix.proposed . put) fitting
-  where
-    isPossible w
-      | "cipher" `elem` words' && beginsValue token = w == "cipher"
-      | "inside" `elem` words' && "on" `elem` words' = hasBlock
-      | otherwise =
-        w
-          `elem` Text.words
-            "closed open outside inside left right on round sharp compiler controller"
-          || w == "off" && not (beginsValue token)
-          || beginsValue token && w
-          `elem` Text.words "at arc line in near cw ccw ="
-          || isPlainValue && w
-          `elem` ["diameter", "nose"]
-    -- True if the block of settings begins at the token or after it.
-    hasBlock = Symbol "{" `elem` take 1 (map shape (after around)) || token == Symbol "{"
-    isLineEnd = all newLine (take 1 (after around))
-    isPlainValue = case token of
-      Number _ _ -> True
-      Symbol "(" -> True
-      _ -> False
-    put w
-      | hasBlock || isLineEnd,
-        Word word <- token =
-        Fix.exchange ("Write " <> w <> " instead of " <> word <> ".") region w
-      | isLineStart around,
-        Just t <- previous around =
-        Fix.insertion (title' w) (end (place t)) (" " <> w)
-      | otherwise = Fix.insertion (title' w) (start region) (w <> " ")
-    title' w = "Write " <> w <> " here."
+-- | Proposals for a number in place of a cutter.
+cutterFixes :: Region -> Token_ -> [Text] -> [Fix]
+cutterFixes region token words' = case token of
+  Number _ _ -> [cutterFix region kind | kind <- ["mill", "drill"], kind `elem` words']
+  _ -> []
 
 -- | Writes the cutter of a kind around the number of its diameter.
 cutterFix :: Region -> Text -> Fix
@@ -174,20 +142,17 @@ cutterFix region kind =
 -- | Fixes for a token after a complete statement on the same line.
 trailingFixes :: Region -> Token_ -> TokenContext -> [Fix]
 trailingFixes region token around =
-  firstFixes [pointBrackets, signFixes region token around, others]
+  firstFixes [pointBrackets, newLines, signFixes region token around, repairs around, others]
   where
-    others = case (token, shape <$> previous around) of
-      (Symbol s, _)
-        | s `elem` [")", "]", "}"] -> [Fix.removal ("Remove the bracket " <> s <> ".") region]
-      (Word word, Just (Number _ Nothing))
-        | Just unit <- unitMeant word -> [unitFix region unit around]
-      (Word word, _)
+    newLines = case token of
+      Word word
         | word `elem` (Keyword.statements <> Keyword.softStatements <> Keyword.blocks) ->
           [Fix.insertion "Begin a new line here." (start region) "\n"]
-      (Word word, Just (Number _ _)) | not (Keyword.isReserved word) -> [times]
-      (Symbol "(", Just (Number _ _)) -> [times]
       _ -> []
-    times = Fix.proposed (Fix.insertion "Write the product with *." (start region) "* ")
+    others = case token of
+      Symbol s
+        | s `elem` [")", "]", "}"] -> [Fix.removal ("Remove the bracket " <> s <> ".") region]
+      _ -> afterNumberFixes region token around
     pointBrackets = case (token, reverse (before around)) of
       (Symbol ",", keyword : first : _)
         | Word word <- shape keyword,
@@ -208,12 +173,59 @@ trailingFixes region token around =
       Symbol s -> s `elem` [",", "-"]
       _ -> False
 
+-- | Fixes for a word or a bracket after a number: a unit, or a product without its sign.
+afterNumberFixes :: Region -> Token_ -> TokenContext -> [Fix]
+afterNumberFixes region token around = case (token, shape <$> previous around) of
+  (Word word, Just (Number n Nothing))
+    | Just sign <- lookup word signWords ->
+      [ Fix.exchange
+          ("Write the sign " <> sign <> " instead of " <> quote word <> ".")
+          region
+          sign
+      ]
+    | Just unit <- unitMeant word -> [unitFix region unit around]
+    | Just (factor, unit) <- lookup (Text.toLower word) scaledUnits,
+      Just t <- previous around ->
+      let new = scaledDigits factor n <> " " <> unit
+       in [Fix.exchange ("Write " <> new <> ".") (Region (start (place t)) (end region)) new]
+  (Word "per", Just (Number _ (Just _)))
+    | minute : _ <- after around,
+      shape minute `elem` map Word ["min", "minute"],
+      Just t <- previous around ->
+      [ Fix.exchange
+          "Write the unit as mm/min, without ‘per’."
+          (Region (end (place t)) (end (place minute)))
+          "/min"
+      ]
+  (Word word, Just (Number _ _)) | not (Keyword.isReserved word) -> [times]
+  (Symbol "(", Just (Number _ _)) -> [times]
+  _ -> []
+  where
+    signWords = [("x", "*"), ("X", "*"), ("х", "*"), ("times", "*"), ("div", "/"), ("plus", "+")]
+    times = Fix.proposed (Fix.insertion "Write the product with *." (start region) "* ")
+
+-- | Units that the language does not have, each with its size in one that it has.
+scaledUnits :: [(Text, (Double, Text))]
+scaledUnits =
+  [ (word, size)
+    | (words', size) <-
+        [ ("um µm μm micron microns mkm мкм", (0.001, "mm")),
+          ("nm", (0.000001, "mm")),
+          ("thou mil mils", (0.001, "in")),
+          ("ft foot feet", (12, "in")),
+          ("gon", (0.9, "deg")),
+          ("turn turns", (360, "deg")),
+          ("hz rps", (60, "rpm"))
+        ],
+      word <- Text.words words'
+  ]
+
 -- | Writes a unit in the way of the language. A feed or a speed in words of Russian has a second
 -- word after a slash.
 unitFix :: Region -> Text -> TokenContext -> Fix
 unitFix region unit around = case after around of
   slash : minute : _
-    | shape slash == Symbol "/",
+    | shape slash `elem` [Symbol "/", Word "per", Word "a"],
       shape minute `elem` map Word ["min", "мин", "minute", "minutes"] ->
       named
         (if unit == "rpm" then unit else unit <> "/min")
@@ -229,7 +241,6 @@ signFixes region token around = case (token, shape <$> previous around) of
     | isDecimalComma token around ->
       Fix.exchange "Write a decimal point." region "." : pairBrackets
   (Symbol ",", Just (Number _ _)) -> pairBrackets
-  (Symbol ",", Just (Symbol ")")) -> [Fix.removal "Remove the comma." region]
   (Symbol "+", Just (Symbol "+")) -> []
   (Symbol "+", _) -> [Fix.removal "Remove the sign +." region]
   (Symbol "=", Just (Symbol "=")) -> [Fix.removal "Write one sign: a = b." region]
@@ -247,8 +258,9 @@ signFixes region token around = case (token, shape <$> previous around) of
   where
     -- In a contour, two numbers are a point without its brackets.
     pairBrackets = case (reverse (before around), before around, after around) of
-      (keyword : _, x : _, y : _)
+      (keyword : _, x : own, y : _)
         | shape keyword == Word "contour",
+          take 1 (map shape own) `notElem` map (pure . Word) linkWords,
           Number _ _ <- shape y ->
           [ Fix.proposed
               ( Fix.enclosure
@@ -265,6 +277,10 @@ signFixes region token around = case (token, shape <$> previous around) of
           (Region (start (place star)) (end region))
           around {before = [base], after = [count]}
       _ -> []
+
+-- | Words of an element of a contour that a number follows.
+linkWords :: [Text]
+linkWords = Text.words "fillet chamfer feed allowance bevel"
 
 -- | Fix for a misspelt word before an argument, such as @near@.
 labelFixes :: Token_ -> TokenContext -> [Fix]
@@ -291,8 +307,8 @@ statementFixes region word known around
   | word `elem` declaring =
     [Fix.exchange ("Write let instead of " <> quote word <> ".") region "let"]
   | w : _ <- Name.lookAlike word known <> Name.nearest word known = [put w]
-  | Just w <- lookup word synonyms = [Fix.proposed (put w)]
-  | otherwise = case map shape (after around) of
+  | Just w <- statementMeant word, take 1 (map shape (after around)) /= [Symbol "="] = [put w]
+  | otherwise = (<> repairs around) $ case map shape (after around) of
     Symbol "=" : _ -> [begin]
     Stray ':' : Symbol "=" : _ ->
       [ Fix.joined
@@ -308,20 +324,10 @@ statementFixes region word known around
         ("Give the value its name with let: let " <> word <> " = …")
         (start region)
         "let "
-    synonyms =
-      [ ("cutter", "tool"),
-        ("include", "import"),
-        ("profile", "contour"),
-        ("shape", "contour"),
-        ("path", "contour"),
-        ("goto", "move"),
-        ("speed", "spindle cw")
-      ]
 
 -- | Words with which a value gets its name in other languages.
 declaring :: [Text]
-declaring =
-  Text.words "var const def val auto int float double real number length angle point line circle"
+declaring = typeWords <> Text.words "def length angle point line circle"
 
 -- Brackets
 

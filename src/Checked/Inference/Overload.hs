@@ -16,6 +16,7 @@ import Base.Name (Name (..))
 import Base.Region (Region (..))
 import Checked.Builtin (ArgumentLabel (..), Form, Fresh (..), label)
 import Checked.Builtin qualified as Builtin
+import Checked.Call (byLikeness, pointFixes)
 import Checked.Dimension qualified as Dimension
 import Checked.Error (Error (..), LabelChange (..))
 import Checked.ErrorFix (unwritten)
@@ -70,10 +71,19 @@ reportMisfit call types = case mapMaybe (oneMisfit call types) (formsByLabels ca
             (callRegion call)
             name
             given
-            (nubOrd (map (Builtin.formText (builtin call)) (formsByLabels call <> formsByCount)))
+            ( nubOrd
+                ( map
+                    (Builtin.formText (builtin call))
+                    (byLikeness types (Builtin.forms plainUnknowns (builtin call)))
+                )
+            )
             (mapMaybe (singleMisfit given) (formsByLabels call))
             (mapMaybe (oneLabel call types) formsByCount)
             []
+            ( if all (== NoLabel) (labels call)
+                then pointFixes name given (Builtin.forms plainUnknowns (builtin call))
+                else []
+            )
         )
   where
     name = Builtin.name (builtin call)

@@ -1,0 +1,118 @@
+{-# OPTIONS_GHC -O0 #-}
+
+-- | The reports of calculations that other languages allow: sums of points, and feeds per
+-- revolution or per second.
+module Checked.ArithmeticReport
+  ( unitDivisors,
+    bareCoordinatesReport,
+    radiansReport,
+    pointsAddedReport,
+    unknownUnitReport,
+  )
+where
+
+import Base.Decimal qualified as Decimal
+import Base.Region (Region (..))
+import Data.Text (Text)
+import Data.Text qualified as Text
+import Report.Fix qualified as Fix
+import Report.Report
+  ( Label (..),
+    Report (..),
+    ReportCode,
+    ReportPlace (..),
+    Severity (..),
+    quote,
+    report,
+  )
+import Surface.Token (Numeral (digits), Unit, scaledDigits, unitName)
+
+-- | Words after the stroke of a feed that the language does not have.
+unitDivisors :: [Text]
+unitDivisors = secondWords <> revolutionWords <> toothWords
+
+secondWords, revolutionWords, toothWords :: [Text]
+secondWords = Text.words "s sec second seconds"
+revolutionWords = Text.words "rev revolution turn r u об"
+toothWords = Text.words "tooth t z flute teeth"
+
+-- | The report of the coordinates of a point without its brackets.
+bareCoordinatesReport :: Region -> Report
+bareCoordinatesReport region =
+  (at region "E0205" "the coordinates of a point are in brackets")
+    { fixes = [Fix.enclosure "Write the point in brackets: (x, y)." "(" region ")"]
+    }
+
+-- | The report of a number of radians without a unit, which would be taken for degrees.
+radiansReport :: Region -> Report
+radiansReport region =
+  (at region "E0205" "this number of radians is taken for degrees, since it has no unit")
+    { label = "without a unit, an angle is in degrees",
+      fixes = [Fix.enclosure "Write it in radians: (…) * 1 rad." "(" region ") * 1 rad"]
+    }
+
+-- | The report of a sum of points.
+pointsAddedReport :: Region -> Region -> Region -> Maybe Region -> Report
+pointsAddedReport region left right half =
+  (at region "E0205" "two points cannot be added")
+    { others = [Label left "a point", Label right "a point"],
+      fixes =
+        [ Fix.joined
+            "Write the point between them: midpoint(p, q)."
+            [ if start whole < start left - 1
+                then Fix.exchange "" (Region (start whole) (start left)) "midpoint("
+                else Fix.insertion "" (start left) "midpoint(",
+              Fix.exchange "" (Region (end left) (start right)) ", ",
+              if end whole > end right
+                then Fix.exchange "" (Region (end right) (end whole)) "))"
+                else Fix.insertion "" (end right) ""
+            ]
+          | Just whole <- [half]
+        ],
+      hints =
+        [ "A point and a vector can be added: p + (10, 0). The vector from p to q is q - p."
+          | Nothing <- [half]
+        ]
+    }
+
+-- | The report of a feed per revolution, per tooth or per second.
+unknownUnitReport :: Region -> Numeral -> Unit -> Text -> [Double] -> Report
+unknownUnitReport region n unit word speeds =
+  (at region "E0201" (quote (unitName unit <> "/" <> word) <> " is no unit of the language"))
+    { message = ["Feeds are given per minute: mm/min, m/min or in/min."],
+      fixes =
+        [ Fix.exchange ("Write " <> perMinute 60 <> ".") region (perMinute 60)
+          | word `elem` secondWords
+        ]
+          <> [ Fix.proposed
+                 ( Fix.exchange
+                     ( "Write " <> perMinute speed <> ": the feed per revolution times the "
+                         <> Decimal.short 3 speed
+                         <> " turns a minute of the spindle."
+                     )
+                     region
+                     (perMinute speed)
+                 )
+               | word `elem` revolutionWords,
+                 speed <- take 1 speeds
+             ],
+      hints =
+        [ "Multiply the feed per revolution by the speed of the spindle: at 900 turns a minute, "
+            <> digits n
+            <> " "
+            <> unitName unit
+            <> " is "
+            <> perMinute 900
+            <> "."
+          | word `elem` revolutionWords,
+            null speeds
+        ]
+          <> [ "Multiply the feed per tooth by the count of teeth and by the speed of the spindle."
+               | word `elem` toothWords
+             ]
+    }
+  where
+    perMinute factor = scaledDigits factor n <> " " <> unitName unit <> "/min"
+
+at :: Region -> ReportCode -> Text -> Report
+at region code = report Error code (InSource region)

@@ -1,0 +1,158 @@
+{-# OPTIONS_GHC -O0 #-}
+
+-- | Examples of statements, settings and elements, for reports on those that cannot be parsed.
+module Surface.StatementForm
+  ( formHint,
+    settingTitle,
+    isItemStart,
+    blockWord,
+  )
+where
+
+import Data.List (find)
+import Data.Maybe (listToMaybe, mapMaybe)
+import Data.Text (Text)
+import Data.Text qualified as Text
+import Report.Report (quote)
+import Surface.Keyword qualified as Keyword
+import Surface.Token (Token (..), Token_ (..), describe)
+import Surface.TokenContext (TokenContext (..))
+
+-- | The hint that shows how the statement, the setting or the element around a wrong token is
+-- written. Empty if it has no keyword.
+--
+-- @isStart@ tells if a setting or an element was to begin at the wrong token.
+formHint :: Bool -> TokenContext -> [Text]
+formHint isStart around = case reverse onLine of
+  Word word : _
+    | isInSettings, Just example <- listToMaybe nearestSetting -> [shown example]
+    | Just example <- cutterForm -> [shown example]
+    | not isInSettings, Just example <- lookup word statementForms -> [shown example]
+  _
+    | isInSettings ->
+      [ "The settings of " <> quote keyword <> " are: "
+          <> Text.intercalate ", " (Keyword.settingsOf keyword)
+          <> "."
+      ]
+    | keyword == "contour" ->
+      [ "Elements of a contour are written: line(a, b) fillet 3, or cw circle(a, 5) tangent, or a \
+        \point (0, 0)"
+      ]
+    | Just example <- lookup keyword statementForms -> [shown example]
+  _ -> []
+  where
+    keyword = blockWord around
+    isInSettings = keyword `elem` settingBlocks && Symbol "{" `elem` map shape (before around)
+    shown example = "It is written: " <> example
+    onLine = if isStart && isLineStart around then [] else map shape (lineTokens around)
+    lineWords = [w | Word w <- onLine]
+    nearestSetting = mapMaybe (`lookup` settingForms) lineWords
+    cutterForm =
+      listToMaybe
+        [ form
+          | keyword `elem` ["tool", "change"],
+            w <- lineWords,
+            Just form <- [lookup w cutterForms]
+        ]
+
+-- | Examples of cutters by their kind.
+cutterForms :: [(Text, Text)]
+cutterForms =
+  [ ("cone", "cone(diameter 20 mm, bevel 5 deg, height 30 mm)"),
+    ("blade", "blade(diameter 20 mm, gear 70 mm)"),
+    ("turn", "turn(nose 0.8 mm)")
+  ]
+
+-- | The tokens before the wrong one on its line, the nearest first. If it begins a line, those of
+-- the line before that begin no block.
+lineTokens :: TokenContext -> [Token]
+lineTokens around
+  | isLineStart around, t : _ <- before around, shape t `elem` map Symbol ["{", "}"] = []
+  | otherwise = case break newLine (before around) of
+    (same, first : _) -> same <> [first]
+    (same, []) -> same
+
+settingBlocks :: [Text]
+settingBlocks = ["mill", "pocket", "turn", "drill"]
+
+-- | The keyword of the statement around a token; empty if there is none.
+blockWord :: TokenContext -> Text
+blockWord around = case shape <$> listToMaybe (reverse (before around)) of
+  Just (Word word) -> word
+  _ -> ""
+
+-- | The title for a token that begins no setting in the braces of a statement, or that comes after
+-- a complete setting. 'Nothing' if the expected words are not those of settings.
+settingTitle :: Token_ -> [Text] -> TokenContext -> Maybe Text
+settingTitle token expected around
+  | isElement && isLineStart around = Just (describe token <> " begins no element of a contour")
+  | isElement = Just ("the element is complete before " <> describe token)
+  | not (any ((`elem` expected) . quote) ["plunge", "peck", "retract"]) = Nothing
+  | isLineStart around = Just (describe token <> " is no setting of " <> quote (blockWord around))
+  | Just word <- settingBefore =
+    Just ("the setting " <> quote word <> " is complete before " <> describe token)
+  | otherwise = Just (describe token <> " is no setting of " <> quote (blockWord around))
+  where
+    isElement = blockWord around == "contour" && quote "cw" `elem` expected
+    settingBefore =
+      find
+        Keyword.beginsItem
+        [word | t <- lineTokens around, Word word <- [shape t]]
+
+-- | True if the expected words are those with which settings or elements begin.
+isItemStart :: [Text] -> Bool
+isItemStart expected = any ((`elem` expected) . quote) ["plunge", "peck", "cw", "clearance"]
+
+-- | Examples of statements by their keyword.
+statementForms :: [(Text, Text)]
+statementForms =
+  [ ("part", "part bracket \"Bracket 12 mm\""),
+    ("machine", "machine iso6983"),
+    ("import", "import \"ear.part\""),
+    ("tool", "tool mill(diameter 12 mm)"),
+    ("feed", "feed 60 mm/min"),
+    ("tolerance", "tolerance 0.02 mm, or tolerance inside 0.01 outside 0.02"),
+    ("clearance", "clearance 5 mm"),
+    ("from", "from (0, 0)"),
+    ("let", "let a = 5 mm, or for a function let f(x) = 2 * x"),
+    ("param", "param a = 5 mm"),
+    ("contour", "contour edge closed { … }, or open instead of closed"),
+    ( "table",
+      "table points { … }, with a line of names such as x y, and below it a row for each point"
+    ),
+    ("curve", "curve c = spline(points)"),
+    ("piece", "piece q = c cipher 2(1.5) left"),
+    ("assert", "assert a < b, or assert a = b within 0.01"),
+    ("mill", "mill edge outside { depth 10 step 5 }"),
+    ("pocket", "pocket recess step 5 { depth 4 }"),
+    ("turn", "turn profile outside { allowance 1, 0 }"),
+    ("drill", "drill at (10, 20) depth 15 { peck 5 }"),
+    ("rapid", "rapid (0, 0)"),
+    ("move", "move (0, 0) feed 30"),
+    ("change", "change 2 drill(diameter 5 mm)"),
+    ("spindle", "spindle cw 900 rpm, or spindle off"),
+    ("coolant", "coolant on, or coolant off"),
+    ("aux", "aux 8"),
+    ("for", "for i in 1..3 { … }"),
+    ("if", "if a < b { … } else { … }"),
+    ("with", "with moved((10, 0)) { … }")
+  ]
+
+-- | Examples of settings by their first word.
+settingForms :: [(Text, Text)]
+settingForms =
+  [ ("approach", "approach (0, 0) rapid, (5, 5)"),
+    ("retract", "retract (5, 5), (0, 0) rapid"),
+    ("depth", "depth 10 step 5"),
+    ("lead", "lead in line 10, or lead out arc 5"),
+    ("allowance", "allowance 0.5, 0"),
+    ("corners", "corners round, or corners sharp"),
+    ("climb", "climb"),
+    ("conventional", "conventional"),
+    ("compensation", "compensation controller, or compensation compiler"),
+    ("start", "start near (0, 0)"),
+    ("plunge", "plunge 30"),
+    ("peck", "peck 4"),
+    ("islands", "islands boss, rib"),
+    ("rest", "rest allowed")
+  ]
