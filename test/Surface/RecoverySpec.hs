@@ -31,7 +31,7 @@ cases =
     ),
     ( "before settings whose brace is missing",
       ["mill a outside", "  lead in arc 5", "  plunge slowly", "}", "aux 3"],
-      "‘{’ is needed here, not ‘lead’"
+      "‘{’ is needed after ‘outside’, but the line ends"
     ),
     ( "before elements of two words",
       ["contour c clsed {", "  a tangent", "  b tangent", "}", "aux 3"],
@@ -39,7 +39,7 @@ cases =
     ),
     ( "before a block of statements",
       ["if f(a, ) {", "  aux 1", "} else {", "  aux 2", "}", "aux 3"],
-      "a value or ‘if’ is needed here, not ‘)’"
+      "a value is needed here, not ‘)’"
     ),
     ( "before a line that continues with a reserved word",
       ["assert (1 2) and", "  not a", "aux 3"],
