@@ -44,8 +44,8 @@ data State = State
     now :: [Token],
     -- | the count of tokens from the one at which parsing failed
     limit :: Int,
-    -- | the index of that token
-    failed :: Int
+    -- | the index of the first token on the line of that token
+    lineStart :: Int
   }
 
 -- | The repairs of a statement whose tokens cannot be parsed at an index, at most three. They are
@@ -64,12 +64,15 @@ repairs try original index wanted
           said = "",
           now = original,
           limit = length original - index,
-          failed = index
+          lineStart = startOfLine original index
         }
     solutions = search fromLine Nothing mostTrials Set.empty (nextStates begin index wanted)
     -- Mistakes on lines above have reports of their own.
-    fromLine ts = filter ((>= lineStart) . fst) (try ts)
-    lineStart = maximum (0 : [n | (n, t) <- zip [0 .. index - 1] original, newLine t])
+    fromLine ts = filter ((>= startOfLine original (index - 1)) . fst) (try ts)
+
+-- | The index of the first token on the line of the token with an index.
+startOfLine :: [Token] -> Int -> Int
+startOfLine ts k = maximum (0 : [n | (n, t) <- zip [0 .. k] ts, newLine t])
 
 -- | Cost from which a repair changes what the statement means, so that it is only proposed.
 doubtful :: Int
@@ -222,7 +225,7 @@ search try best left seen states = case states of
                   seen'
                   ( sortOn
                       spent
-                      (rest <> nextStates s {limit = length (now s) - k, failed = k} k wanted)
+                      (rest <> nextStates (failedAt k s) k wanted)
                   )
               | otherwise -> search try best (left - 1) seen' rest
   where
@@ -231,9 +234,14 @@ search try best left seen states = case states of
 -- | The index after the last token of the line on which the last token lies that is followed by
 -- unchanged ones only.
 changedEnd :: State -> Int
-changedEnd s = fromMaybe (length (now s)) (lineEndFrom (max (failed s) (length (now s) - limit s)))
+changedEnd s = fromMaybe (length (now s)) (lineEndFrom failing)
   where
+    failing = max (lineStart s) (length (now s) - limit s)
     lineEndFrom k = (+ (k + 1)) <$> findIndex newLine (drop (k + 1) (now s))
+
+-- | A state whose tokens cannot be parsed at an index.
+failedAt :: Int -> State -> State
+failedAt k s = s {limit = length (now s) - k, lineStart = startOfLine (now s) k}
 
 -- | The states after one more change at the index at which parsing fails.
 nextStates :: State -> Int -> [Text] -> [State]
