@@ -5,6 +5,7 @@
 module Checked.ArithmeticReport
   ( unitDivisors,
     bareCoordinatesReport,
+    commaMissingReport,
     radiansReport,
     pointsAddedReport,
     unknownUnitReport,
@@ -41,6 +42,13 @@ bareCoordinatesReport :: Region -> Report
 bareCoordinatesReport region =
   (at region "E0205" "the coordinates of a point are in brackets")
     { fixes = [Fix.enclosure "Write the point in brackets: (x, y)." "(" region ")"]
+    }
+
+-- | The report of the coordinates of a point without the comma between them.
+commaMissingReport :: Region -> Int -> Report
+commaMissingReport region offset =
+  (at region "E0205" "this is a difference of two numbers, but a point is needed here")
+    { fixes = [Fix.insertion "Write a comma between the coordinates: (x, y)." offset ","]
     }
 
 -- | The report of a number of radians without a unit, which would be taken for degrees.

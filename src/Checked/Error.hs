@@ -65,6 +65,9 @@ data Error
   | -- | a sum of points: the regions of both, and the region of the half of the sum, if the program
     -- takes the half
     PointsAdded Region Region Region (Maybe Region)
+  | -- | a difference of numbers where a point is needed: the difference, and the offset behind its
+    -- first number, where the comma of a point is missing
+    CommaMissing Region Int
   | -- | a feed whose unit the language does not have: its number, the unit of its length, the word
     -- after the stroke, and speeds of the spindle in turns per minute
     UnknownUnit Region Numeral Unit Text [Double]
@@ -211,6 +214,7 @@ toReport err = case err of
           ],
         hints = ["Move the definition above its first use." | Nothing <- [move]]
       }
+  CommaMissing region offset -> commaMissingReport region offset
   PointsAdded region left right half -> pointsAddedReport region left right half
   UnknownUnit region n unit word speeds -> unknownUnitReport region n unit word speeds
   BareCoordinates region -> bareCoordinatesReport region

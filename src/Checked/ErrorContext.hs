@@ -131,6 +131,10 @@ completed statements e = case e of
     | sum' : _ <- mapMaybe (addedPoints statements . fst) ((at, wanted) : elsewhere),
       isSpatial wanted && isSpatial found ->
       sum'
+  Mismatch at wanted (Type.Quantity _) _ _
+    | wanted == Type.aPoint,
+      first : _ <- [l | Binary Subtract l _ <- termsAt statements at] ->
+      CommaMissing at (end (region first))
   UnknownUnit at n unit word _ -> UnknownUnit at n unit word (spindleSpeeds statements at)
   Mismatch at wanted found elsewhere _ ->
     Mismatch at wanted found elsewhere (termAt statements at)
@@ -262,7 +266,7 @@ definitionAt statements at (Name name) =
     { literal = Nothing,
       statement =
         listToMaybe
-          [region s | s <- innermostFirst at everything, Just n <- [definedName s], region n == at],
+          [region s | s <- innermostFirst at everything, Just n <- [SyntaxWalk.definedName (value s)], region n == at],
       freeName = Just (name, free statements name),
       ErrorFix.words = Just name,
       isOwnCall = False,
@@ -279,7 +283,7 @@ usesOf statements at name = concatMap use (concatMap everyTerm (filter isReached
     everything = concatMap SyntaxWalk.statementsIn statements
     everyTerm = concatMap SyntaxWalk.everywhere . SyntaxWalk.ofStatement
     own = listToMaybe (innermostFirst at everything)
-    isStatement = or [region n == at | s <- maybeToList own, Just n <- [definedName s]]
+    isStatement = or [region n == at | s <- maybeToList own, Just n <- [SyntaxWalk.definedName (value s)]]
     isFunction = isStatement && or [True | Located _ (LetFunction {}) <- maybeToList own]
     isReached s
       | isStatement = start (region s) > start at
@@ -318,7 +322,7 @@ usedNames statements =
   Set.fromList
     ( Builtin.names
         <> Keyword.reservedWords
-        <> [text | s <- everything, Just (Located _ (Name text)) <- [definedName s]]
+        <> [text | s <- everything, Just (Located _ (Name text)) <- [SyntaxWalk.definedName (value s)]]
         <> concatMap
           named
           (concatMap SyntaxWalk.everywhere (concatMap SyntaxWalk.ofStatement everything))
@@ -329,16 +333,3 @@ usedNames statements =
       Variable (Name text) -> [text]
       Call (Located _ (Name text)) _ -> [text]
       _ -> []
-
--- | The name that a statement defines.
-definedName :: Statement -> Maybe (Located Name)
-definedName (Located _ s) = case s of
-  LetValue n _ -> Just n
-  LetFunction n _ _ -> Just n
-  Param n _ -> Just n
-  Contour n _ _ -> Just n
-  Table n _ -> Just n
-  Curve n _ -> Just n
-  Piece n _ _ _ _ -> Just n
-  Surface.Broken _ n -> n
-  _ -> Nothing
