@@ -51,13 +51,11 @@ data Error
   = -- | an unknown name: this name, all names and words that are known, for a suggestion, and the
     -- other regions of the name
     UndefinedName Region Name [Text] [Region]
-  | -- | an unknown name before a value that can be no element of a contour: the name, the region of
-    -- the value, and the words of links if the name stands for one
+  | -- | an unknown name before a value that is no element: the name, the value, the words for links
     UnknownLink Region Name Region [Text]
   | -- | a call of an unknown function: its name, and all names and words that are known
     UndefinedFunction Region Name [Text]
-  | -- | a name that is defined only below: the name, the region of the definition, and the move of
-    -- a statement that would mend the mistake
+  | -- | a name that is defined below: the name, its definition, and the move that mends the mistake
     UsedBeforeDefinition Region Name Region (Maybe StatementMove)
   | -- | a name that is already defined: the name, the region of the first definition, the second
     -- definition, and the regions of its uses
@@ -65,8 +63,7 @@ data Error
   | -- | a sum of points: the regions of both, and the region of the half of the sum, if the program
     -- takes the half
     PointsAdded Region Region Region (Maybe Region)
-  | -- | a difference of numbers where a point is needed: the difference, and the offset behind its
-    -- first number, where the comma of a point is missing
+  | -- | a point without its comma: the difference of its coordinates, the offset of the comma
     CommaMissing Region Int
   | -- | a feed whose unit the language does not have: its number, the unit of its length, the word
     -- after the stroke, and speeds of the spindle in turns per minute

@@ -266,7 +266,7 @@ definitionAt statements at (Name name) =
     { literal = Nothing,
       statement =
         listToMaybe
-          [region s | s <- innermostFirst at everything, Just n <- [SyntaxWalk.definedName (value s)], region n == at],
+          [region s | s <- innermostFirst at everything, Just n <- [nameOf s], region n == at],
       freeName = Just (name, free statements name),
       ErrorFix.words = Just name,
       isOwnCall = False,
@@ -283,7 +283,7 @@ usesOf statements at name = concatMap use (concatMap everyTerm (filter isReached
     everything = concatMap SyntaxWalk.statementsIn statements
     everyTerm = concatMap SyntaxWalk.everywhere . SyntaxWalk.ofStatement
     own = listToMaybe (innermostFirst at everything)
-    isStatement = or [region n == at | s <- maybeToList own, Just n <- [SyntaxWalk.definedName (value s)]]
+    isStatement = or [region n == at | s <- maybeToList own, Just n <- [nameOf s]]
     isFunction = isStatement && or [True | Located _ (LetFunction {}) <- maybeToList own]
     isReached s
       | isStatement = start (region s) > start at
@@ -322,7 +322,7 @@ usedNames statements =
   Set.fromList
     ( Builtin.names
         <> Keyword.reservedWords
-        <> [text | s <- everything, Just (Located _ (Name text)) <- [SyntaxWalk.definedName (value s)]]
+        <> [text | s <- everything, Just (Located _ (Name text)) <- [nameOf s]]
         <> concatMap
           named
           (concatMap SyntaxWalk.everywhere (concatMap SyntaxWalk.ofStatement everything))
@@ -333,3 +333,6 @@ usedNames statements =
       Variable (Name text) -> [text]
       Call (Located _ (Name text)) _ -> [text]
       _ -> []
+
+nameOf :: Statement -> Maybe (Located Name)
+nameOf = SyntaxWalk.definedName . value

@@ -58,8 +58,12 @@ damaged machine name given damage
 -- also has the first difference from the program's own tape.
 otherDamaged :: Compiled -> TapeFile -> Damage -> (Source, Report)
 otherDamaged compiled TapeFile {fileName, rows} damage =
-  (source, withDifference compiled 0 rows report)
+  (source, withDifference compiled 0 rows (if isCutOff then cutOff report else report))
   where
+    Tape given = rows
+    Tape own = tape (Compile.punched compiled)
+    isCutOff = given `ByteString.isPrefixOf` own
+    cutOff r = r {hints = ["Copy the file again, or punch the tape anew with partc compile."]}
     (source, report) = damaged (Compile.machine compiled) fileName rows damage
 
 -- | The source and the reports of the findings about a tape. The argument

@@ -160,6 +160,12 @@ firstRow machine planned (Tape given) (Tape own) = case (differing, drop first p
           <> ".",
         same "row" (length more)
       ]
+  ([], _)
+    | first < ByteString.length own ->
+      [ "All its rows are those of this program's own tape, which has "
+          <> Decimal.whole (ByteString.length own)
+          <> "."
+      ]
   (_, next) ->
     [ "The first row that differs from this program's own tape is row "
         <> Decimal.whole (first + 1)

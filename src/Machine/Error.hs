@@ -221,8 +221,8 @@ toReport err = case err of
       { hints = ["Write, for example: " <> form]
       }
   Malformed region key forms ->
-    (at region "E1005" (quote key <> " is not written so"))
-      { hints = ["Write: " <> Text.intercalate ", or: " forms]
+    (at region "E1005" ("the values of " <> quote key <> " are wrong"))
+      { hints = ["It is written: " <> Text.intercalate ", or: " forms]
       }
   WrongUnit region kind axis -> unitReport region kind axis
   Unmarked region more ends ->

@@ -47,9 +47,8 @@ data ContourFault
     -- carrier, the ends of the contour that lie on circles, and the region of the word @open@ if
     -- the circle is the only element
     NoEnd Region ElementCarrier [ContourEnd] (Maybe Region)
-  | -- | a link after the last element of an open contour: the regions of the contour's first
-    -- element and of the word @open@
-    LinkAtEnd Region Region Region
+  | -- | a link after the last element of an open contour: the region of the word @open@
+    LinkAtEnd Region Region
   | -- | a closed contour as an element of another contour: the name of the closed contour
     ClosedElement Region Name
   | -- | a closed curve as the element of an open contour: the region of the word @open@
@@ -119,10 +118,10 @@ toReport fault = case fault of
       { fixes = [Fix.removal "Leave the link out: it closes by itself." region]
       }
   NoEnd region carrier ends closure -> noEndReport region carrier ends closure
-  LinkAtEnd region contour closure ->
+  LinkAtEnd region closure ->
     (at region "E0310" "nothing follows this link")
-      { others = [Label contour "the contour is open"],
-        fixes = [Fix.proposed (Fix.removal "Leave the link out." region), closedFix closure]
+      { others = [Label closure "the contour is open"],
+        fixes = [closedFix closure, Fix.proposed (Fix.removal "Leave the link out." region)]
       }
   ClosedElement region (Name name) ->
     ( at
@@ -168,8 +167,9 @@ toReport fault = case fault of
       exchange = "Exchange the two elements, if their order is wrong."
   TangentMeant inner lines' ->
     let title = "Join the circles by a tangent: write tangent in place of smooth and the line."
-     in (toReport inner)
-          { message = [],
+        r = toReport inner
+     in r
+          { message = case inner of NotLinked _ (TurnsBack _) -> message r; _ -> [],
             hints = [],
             fixes =
               [ Fix.proposed . Fix.joined title $

@@ -242,6 +242,7 @@ noFilletReport j sense r (largest, turned) =
       )
   )
     { controlStop = Just "17535",
+      message = parallelText j,
       fixes =
         [largestFix fillets | Just fillets <- [largest]]
           <> [turnedFix fillets | Just fillets <- [turned]],
@@ -250,6 +251,14 @@ noFilletReport j sense r (largest, turned) =
           \one; check the sign, the radius, and the senses of the neighbours."
         ]
     }
+
+-- | The sentence that two lines are parallel. Empty for other neighbours.
+parallelText :: Neighbours -> [Text]
+parallelText j = case (value (before j), value (after j)) of
+  (OnLine l, OnLine m)
+    | Intersection.Apart gap <- Intersection.lines l m ->
+      ["The lines are parallel, " <> Decimal.mm gap <> " apart."]
+  _ -> []
 
 -- | The report of one cause that several links of a contour have in common: a tangent beside
 -- elements that are no circles, or a fillet beside a point. It points at the first of these links.

@@ -42,7 +42,11 @@ explained fits isMeantClosed linked faults
   | otherwise = mended
   where
     mended = fmap (withLargest fits linked) faults
-    untouched = concat [neighbours j | NotLinked j (NotSmooth _ _) <- NonEmpty.toList faults]
+    untouched = concat [neighbours j | NotLinked j cause <- NonEmpty.toList faults, isApart cause]
+    isApart cause = case cause of
+      NotSmooth _ _ -> True
+      TurnsBack _ -> True
+      _ -> False
     -- A fillet of another radius or sense mends the fault, and is more likely.
     isMended f = case f of
       NotLinked _ (NoFillet _ _ (Just _) _) -> True
@@ -55,6 +59,7 @@ explained fits isMeantClosed linked faults
       NotLinked j (ParallelLines _) -> neighbours j
       NotLinked j (NoMeeting _) -> neighbours j
       NotLinked j (TurnsBack []) -> neighbours j
+      NotLinked j (NoFillet _ _ Nothing Nothing) -> neighbours j
       Overrun at _ _ _ _ -> [at]
       CrossesItself _ a b _ _ _ -> [a, b]
       _ -> []

@@ -188,7 +188,7 @@ open closure linked = do
   begin <- maybe (Left (withoutEnd first)) Right (ownStart first)
   end <- maybe (Left (withoutEnd final)) Right (ownEnd final)
   case link final of
-    Just (at, _) -> Left (LinkAtEnd at (elementRegion first) closure)
+    Just (at, _) -> Left (LinkAtEnd at closure)
     Nothing -> Right ()
   case withoutChoice list begin Nothing (LinkCandidate.through end) of
     Just elements -> Right elements

@@ -114,10 +114,15 @@ reportWith option err = case err of
     ( wrong
         "E0810"
         (maybe InCommandLine InSource place)
-        ("the machine’s description ‘" <> file <> "’ has mistakes")
+        ( "the machine’s description ‘"
+            <> file
+            <> "’ has mistakes"
+            <> Text.concat [": " <> title r | r <- take 1 shown]
+        )
     )
       { message =
-          map (inOneLine file text) shown
+          concat [lineOf file text r | r <- take 1 shown]
+            <> map (inOneLine file text) (drop 1 shown)
             <> ["The same is wrong at more places." | length shown < length reports],
         hints = nub (concatMap Report.remedies shown)
       }
@@ -139,6 +144,17 @@ gCodeControls =
     "fanuc haas heidenhain siemens sinumerik mach3 mach4 linuxcnc grbl gcode g-code iso din66025 \
     \marlin okuma mazak mitsubishi centroid tormach uccnc emc fagor num cnc generic balt-system \
     \smoothie duet"
+
+-- | The line of a description to which a report points, with its number.
+lineOf :: Text -> Text -> Report -> [Text]
+lineOf file text r = case place r of
+  InSource region ->
+    let described = Region.fromText file text
+        Position {line, column} = Region.position described (Region.start region)
+     in [ file <> ":" <> Decimal.whole line <> ":" <> Decimal.whole column <> ": "
+            <> Text.strip (Region.lineText described (Region.start region))
+        ]
+  _ -> []
 
 -- | A report on a machine description as one line of text: file, line number, column and title, or
 -- only the title if the report has no region. @file@ and @text@ are the name and the text of the
