@@ -233,7 +233,7 @@ def busy(partc):
     client.initialize()
     client.open(other, program(2000))
     client.open(slow, pocket(1))
-    began = client.change(slow, 1, {"text": pocket(4000)})
+    began = client.change(slow, 1, {"text": pocket(11000)})
     time.sleep(0.2)
     times, largest = [], 0
     isSettled = notification("partc/settled", slow, 1)
@@ -258,7 +258,7 @@ def busy(partc):
     row("the analysis during the hovers", "s", ended - began)
     row(f"hover during this analysis ({len(times)})", "ms", percentile(times, 0.5), percentile(times, 0.99))
     row("memory during this analysis", "MB", largest)
-    client.change(slow, 2, {"text": pocket(4001)})
+    client.change(slow, 2, {"text": pocket(11001)})
     time.sleep(1)
     row("end of the input to the end of the process, busy", "ms", 1000 * client.end())
 

@@ -288,14 +288,14 @@ toReport err = case err of
 unitReport :: Region -> AxisKind -> Text -> Report
 unitReport region kind axis = case kind of
   LinearAxis ->
-    (wrong ("the pulse of " <> axis <> " is a length, in mm"))
+    (wrong ("the pulse of " <> axis <> " is a length in mm, and not in this unit"))
       { message = ["The axes x, y and z move along a line; only a and b turn."],
-        hints = ["Write, for example: pulse 0.01 mm"]
+        hints = ["Write the pulse in mm: 10 µm are 0.01 mm."]
       }
   TurningAxis ->
-    (wrong ("the pulse of " <> axis <> " is an angle, in deg"))
+    (wrong ("the pulse of " <> axis <> " is an angle in deg, and not in this unit"))
       { message = ["The axes a and b turn; only x, y and z move along a line."],
-        hints = ["Write, for example: pulse 0.001 deg"]
+        hints = ["Write the pulse in deg: 3.6 seconds of arc are 0.001 deg."]
       }
   where
     wrong = at region "E1005"

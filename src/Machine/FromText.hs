@@ -306,7 +306,8 @@ linearFrom a section =
   where
     pulseFrom = withArguments ["pulse 0.01 mm"] onePulse
     onePulse args = case args of
-      [_, Located r (Word "deg")] -> Just (Result.failed (WrongUnit r LinearAxis (axisName a)))
+      [_, Located r (Word word)]
+        | word /= "mm" -> Just (Result.failed (WrongUnit r LinearAxis (axisName a)))
       [n, unit] -> fmap Mm <$> quantityIn "the pulse" "mm" 1000 n unit
       _ -> Nothing
 
@@ -320,7 +321,8 @@ rotaryFrom a section =
   where
     pulseFrom = withArguments ["pulse 0.001 deg"] onePulse
     onePulse args = case args of
-      [_, Located r (Word "mm")] -> Just (Result.failed (WrongUnit r TurningAxis (rotaryName a)))
+      [_, Located r (Word word)]
+        | word /= "deg" -> Just (Result.failed (WrongUnit r TurningAxis (rotaryName a)))
       [n, unit] -> fmap Quantity.radians <$> quantityIn "the pulse" "deg" 360 n unit
       _ -> Nothing
 

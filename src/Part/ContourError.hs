@@ -166,7 +166,11 @@ toReport fault = case fault of
     where
       exchange = "Exchange the two elements, if their order is wrong."
   TangentMeant inner lines' ->
-    let title = "Join the circles by a tangent: write tangent in place of smooth and the line."
+    let title
+          | length lines' == 1 =
+            "Join the circles by a tangent: write tangent in place of smooth and the line."
+          | otherwise =
+            "Join the circles by tangents: write tangent in place of smooth and each of the lines."
         r = toReport inner
      in r
           { message = case inner of NotLinked _ (TurnsBack _) -> message r; _ -> [],

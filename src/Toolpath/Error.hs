@@ -20,10 +20,12 @@ import Base.Decimal qualified as Decimal
 import Base.Name (Name (..))
 import Base.Quantity (Mm (..), Rad (..), minus, plus, times)
 import Base.Region (Located (..), Region)
+import Data.Maybe (isJust)
 import Data.Text (Text)
 import Data.Text qualified as Text
 import Geometry.Segment (Segment (..))
 import Geometry.Segment qualified as Segment
+import Geometry.Tolerance qualified as Geometry
 import Geometry.Vec (Point)
 import Geometry.Vec qualified as Vec
 import Part.ErrorText (andMore)
@@ -234,8 +236,9 @@ toReport err = case err of
           [ "On its way along the first one, with its centre at "
               <> Vec.toText 3 p
               <> ", it would cut the second one."
-          ],
-        fixes = smaller <> [ErrorFix.restFix (places tool)],
+          ]
+            <> ["One circle lies inside the other." | isInside (segment first) (segment second)],
+        fixes = smaller <> [ErrorFix.restFix (places tool) | isJust largest],
         hints =
           [ if null smaller
               then "Correct the place or the size of one of the two. " <> largestFit tool largest
@@ -243,6 +246,11 @@ toReport err = case err of
           ]
       }
     where
+      isInside a b = case (a, b) of
+        (Arc {centre = c, start = s}, Arc {centre = d, start = t}) ->
+          let (r, q) = (Segment.radius c s, Segment.radius d t)
+           in Vec.distance c d <= plus (minus (max r q) (min r q)) Geometry.coincident
+        _ -> False
       -- A much smaller cutter is hardly meant: then a number is wrong.
       smaller
         | any (> times 0.5 (radius tool)) largest = ErrorFix.sizeFixes tool largest

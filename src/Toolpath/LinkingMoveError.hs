@@ -181,18 +181,17 @@ otherSideReport (Located first p :| more) side (Name name) isWithin =
     { others =
         Label side ("on this side of the contour the cutter is " <> here) :
           [Label again "so does this point" | Located again _ <- more, again /= first],
+      -- If the retract begins there as well, the side is the likely mistake.
       hints =
-        [ "Choose points "
-            <> here
-            <> " of ‘"
-            <> name
-            <> "’. Or mill its other side: write "
-            <> (if isWithin then "inside" else "outside")
-            <> "."
+        [ if null more
+            then "Choose a point " <> where' <> ". Or mill its other side: " <> otherSide <> "."
+            else "Mill its other side: " <> otherSide <> ". Or choose points " <> where' <> "."
         ]
     }
   where
     here = if isWithin then "outside" else "inside"
+    where' = here <> " of ‘" <> name <> "’"
+    otherSide = if isWithin then "inside" else "outside"
 
 leadReport :: NonEmpty LeadFit -> Element -> Mm -> Report
 leadReport leads@(first :| more) element depth =

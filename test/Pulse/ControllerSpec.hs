@@ -204,7 +204,9 @@ feeds = do
         feedsBetween (withoutRamps n55) (0.975, 1.025) code (arc code sense from to)
   it "of ЛКИ stay within the swing on arcs (catches a wrong mean)" $
     forAll (arcFrame 200 2000) $ \(from, to, sense) ->
-      feedsBetween (withoutRamps lkiU) (0.88, 1.30) 20 (arc 20 sense from to)
+      -- The swing goes from 0.900 to 1.273. A window of the measurement may lack two pulses of 50,
+      -- or have two too many.
+      feedsBetween (withoutRamps lkiU) (0.86, 1.33) 20 (arc 20 sense from to)
   it "rise by the acceleration (catches a ramp that is too steep)" $
     let m = head' (fst (measured lkiU [line 40 5000 0]))
         v = 1000 / 60 :: Double
