@@ -13,6 +13,7 @@ module Surface.BracketRepair
 where
 
 import Data.Maybe (listToMaybe, mapMaybe)
+import Data.Text (Text)
 import Data.Text qualified as Text
 import Report.Report (quote)
 import Surface.FailureContext
@@ -182,27 +183,73 @@ broughtForward f =
       to <- [segmentEnd f from],
       to > from + 1 || w `elem` ["outside", "inside", "on", "left", "right"]
   ]
+    <> [ RepairCandidate
+           (stepAt k from f : map Delete [from .. from + length value])
+           1
+           "Write the step before the braces"
+         | Just (Symbol "{") <- [shape <$> at f k],
+           "step" `elem` wanted f,
+           from <-
+             take
+               1
+               [ n
+                 | (n, t) <- zip [0 ..] (tokens f),
+                   newLine t,
+                   Word w <- [shape t],
+                   isSideways f w
+               ],
+           let value = takeWhile (not . newLine) (drop (from + 1) (tokens f)),
+           not (null value)
+       ]
   where
     k = index f
 
--- | A step on a line of its own, moved to the line of the depth.
+-- | A step on a line of its own, moved to the line of the depth, or that of a pocket before its
+-- braces. It replaces a step that stands there.
 stepUp :: Failing -> Token -> [RepairCandidate]
 stepUp f t =
   [ RepairCandidate
-      ( Insert (from + 2) True (Word "step" : map shape (slice (k + 1) to f)) :
-        map Delete [k .. to - 1]
-      )
+      (stepAt (from + 2) k f : map Delete ([n | isOld, n <- [from + 2, from + 3]] <> [k .. to - 1]))
       1
       "Write the step on the line of the depth"
     | Word word <- [shape t],
       "step" `elem` (word : meaningsOf word),
-      to <- [lineEnd f],
+      not (isSideways f word),
       to > k + 1,
-      from <- take 1 [n | (n, d) <- zip [0 ..] (tokens f), newLine d, shape d == Word "depth"],
-      maybe True newLine (at f (from + 2))
+      from <- take 1 (filter isDepth ([k - 1, k - 2 .. 0] <> [k .. length (tokens f) - 1])),
+      let isOld = isStep (from + 2) && maybe True newLine (at f (from + 4)),
+      isOld || maybe True newLine (at f (from + 2))
   ]
+    <> [ RepairCandidate
+           ( stepAt brace k f :
+             map Delete ([n | isOld, n <- [brace - 2, brace - 1]] <> [k .. to - 1])
+           )
+           1
+           "Write the step before the braces"
+         | Word word <- [shape t],
+           isSideways f word,
+           to > k + 1,
+           brace <- take 1 [n | (n, b) <- zip [0 ..] (tokens f), shape b == Symbol "{"],
+           let isOld = isStep (brace - 2)
+       ]
   where
     k = index f
+    to = lineEnd f
+    isStep n = (shape <$> at f n) == Just (Word "step")
+    isDepth n = or [newLine d && shape d == Word "depth" | Just d <- [at f n]]
+
+-- | The insertion of a step at an index. Its value is on the line of the word with the index @k@.
+stepAt :: Int -> Int -> Failing -> TokenChange
+stepAt n k f = Insert n isAtEnd (Word "step" : map shape (takeWhile (not . newLine) value))
+  where
+    value = drop (k + 1) (tokens f)
+    isAtEnd = (shape <$> at f n) /= Just (Symbol "{")
+
+-- | True of a word that means the distance between the passes of a pocket.
+isSideways :: Failing -> Text -> Bool
+isSideways f word =
+  map shape (take 1 (tokens f)) == [Word "pocket"]
+    && Text.toLower word `elem` Text.words "stepover step_over woc ae width_of_cut"
 
 -- | Signs at the end of a line that ends too early, and the line without its last token.
 atLineEnd :: Failing -> [RepairCandidate]
@@ -210,7 +257,7 @@ atLineEnd f =
   [ RepairCandidate
       [Insert k True [token w]]
       2
-      ("Write " <> quote w <> " at the end of the line")
+      ("Write " <> quote w <> " at the end of the line" <> remark w)
     | w <- wanted f,
       w == "allowed"
         || w `elem` ["on", "off"] && opening f == "coolant"
@@ -224,3 +271,4 @@ atLineEnd f =
        ]
   where
     k = index f
+    remark w = if w == "ccw" then ", for left-hand cutters" else ""

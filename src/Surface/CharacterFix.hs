@@ -5,6 +5,8 @@
 module Surface.CharacterFix
   ( characterName,
     characterFixes,
+    qualified,
+    properties,
     powerFixes,
     numberFixes,
     unitMeant,
@@ -59,6 +61,7 @@ characterFixes region c around
   | c `elem` quotationMarks = quotationFixes region around
   | c `elem` ("⌀∅" :: String) = diameterFixes region around
   | c == '^' = powersFixes region around
+  | c == '.', Just _ <- qualified around = qualifiedFixes around
   | c == '.' = pointFixes region around
   | isFullWidth c = [put ("Write " <> narrowed <> " instead.") narrowed]
   | generalCategory c `elem` [Format, Control] =
@@ -157,6 +160,42 @@ pointFixes region around = case following around of
       not (Text.any (== '.') digits) ->
       [Fix.insertion "Write 0 before the decimal point." (start region) "0"]
   _ -> []
+
+-- | The names before and after a wrong token between two names without spaces, as in @ear.eye@.
+qualified :: TokenContext -> Maybe (Text, Text)
+qualified around = case (map shape (before around), after around) of
+  (Word owner : _, t : _) | Word own <- shape t, attached t -> Just (owner, own)
+  _ -> Nothing
+
+-- | Writes the names with a point, on the rest of the line, without what is before the point. A
+-- property, such as @c.radius@, becomes a call.
+qualifiedFixes :: TokenContext -> [Fix]
+qualifiedFixes around = case names of
+  [] -> []
+  (title', _) : _ -> [Fix.joined title' (map snd names)]
+  where
+    line = take 1 (before around) <> here <> after around
+    here = case (before around, after around) of
+      (owner : _, own : _) ->
+        [own {place = Region (end (place owner)) (start (place own)), shape = Stray '.'}]
+      _ -> []
+    names =
+      [ renamed owner own (place a) (place b)
+        | (a, t, b) <- zip3 line (drop 1 line) (drop 2 line),
+          Word owner <- [shape a],
+          Stray '.' <- [shape t],
+          Word own <- [shape b],
+          attached t && attached b
+      ]
+    renamed owner own a b =
+      let new
+            | own `elem` properties = own <> "_of(" <> owner <> ")"
+            | otherwise = own
+       in ("Write " <> new <> ".", Fix.exchange "" (Region (start a) (end b)) new)
+
+-- | Names of properties, which become functions by the ending @_of@.
+properties :: [Text]
+properties = Text.words "x y z centre radius length direction points start end"
 
 -- | Fix for a text without its closing quotation mark.
 textFixes :: Region -> TokenContext -> [Fix]

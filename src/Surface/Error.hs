@@ -41,7 +41,7 @@ import Surface.ForeignReport (foreignReport)
 import Surface.Keyword qualified as Keyword
 import Surface.RowFix qualified as RowFix
 import Surface.StatementForm qualified as StatementForm
-import Surface.Token (Numeral (..), Token (shape), Token_ (..), describe, unitName)
+import Surface.Token (Numeral (..), Token (shape), Token_ (..), describe)
 import Surface.Token qualified as Surface
 import Surface.TokenContext (TokenContext (..))
 import Surface.TokenFix qualified as TokenFix
@@ -60,6 +60,8 @@ data Error
     Repeated Error (NonEmpty Error)
   | -- | lines of another language: the language, and the lines
     ForeignLines Region ForeignLanguage (NonEmpty ForeignLine)
+  | -- | a line that is a comment in round brackets: its text without them
+    BracketComment Region Text
   | -- | a reserved word where a name is defined: the word, a similar name that is free
     Reserved Region Text Text ~[Fix]
   | -- | a token after a complete statement on the same line
@@ -127,7 +129,7 @@ data Enclosure
 toReport :: Error -> Report
 toReport err = case err of
   Unexpected region (FoundToken (Stray c)) _ around ->
-    (at region "E0102" (strayTitle c))
+    (at region "E0102" (strayTitle c around))
       { fixes = CharacterFix.characterFixes region c around,
         hints = strayHint c around
       }
@@ -158,7 +160,7 @@ toReport err = case err of
         FoundEnd -> repairs around
       advised = case found of
         FoundToken token
-          | hint : _ <- advice token around -> [hint]
+          | hint : _ <- TokenFix.advice token around -> [hint]
         _ -> StatementForm.formHint (StatementForm.isItemStart expected) around
   Unclosed region opened what around ->
     (at region "E0105" (enclosureWords what <> " is not closed"))
@@ -190,6 +192,10 @@ toReport err = case err of
           }
   Repeated first others' -> repeatedReport (toReport first) (map toReport (NonEmpty.toList others'))
   ForeignLines region language ls -> foreignReport region language (NonEmpty.toList ls)
+  BracketComment region text ->
+    (at region "E0101" "a comment begins with ‘--’, and is not in round brackets")
+      { fixes = [Fix.exchange "Write the comment with --." region ("-- " <> text)]
+      }
   Reserved region word free mends ->
     (at region "E0107" (quote word <> " is a word of the language and cannot be a name"))
       { fixes =
@@ -210,7 +216,7 @@ toReport err = case err of
         fixes = mends,
         hints =
           if null mends
-            then take 1 (advice token around <> StatementForm.formHint False around)
+            then take 1 (TokenFix.advice token around <> StatementForm.formHint False around)
             else []
       }
     where
@@ -340,7 +346,7 @@ toReport err = case err of
                ]
       }
   NoSuchParam name known ->
-    (report Error "E0114" InFile ("the program has no parameter " <> quote name))
+    (report Error "E0114" InCommandLine ("the program has no parameter " <> quote name))
       { hints =
           ["Did you mean " <> quote w <> "?" | w <- take 1 (Name.nearest name known)]
             <> [ if null known
@@ -432,6 +438,7 @@ repetitionOf e = case e of
     | TokenFix.isDecimalComma token around -> Just (5, token, statement around)
     | token == Symbol "," -> Just (3, token, statement around)
   NotInHeadings _ (Number _ _) around -> Just (4, Symbol "0", statement around)
+  BracketComment _ _ -> Just (6, Symbol "(", Nothing)
   _ -> Nothing
   where
     statement around = listToMaybe (reverse (before around))
@@ -479,33 +486,6 @@ enclosureWords enclosure = case enclosure of
   TableBlock -> "the table"
   RepetitionBlock -> "the repetition"
   BlockOf keyword -> "the block of " <> quote keyword
-
--- | Suggests what the author meant by a misplaced token, judged by the tokens around it.
-advice :: Token_ -> TokenContext -> [Text]
-advice token around = case (token, shape <$> listToMaybe (before around)) of
-  (Symbol ",", _)
-    | TokenFix.isDecimalComma token around -> []
-  (Symbol ",", _)
-    | StatementForm.blockWord around == "contour" ->
-      [ "The elements of a contour follow one another without commas, and a point is in brackets: \
-        \(0, 0)."
-      ]
-  (Symbol "*", Just (Symbol "*")) -> ["There are no powers: write x * x."]
-  (Symbol "=", Just (Symbol "=")) -> []
-  (Symbol "=", _)
-    | StatementForm.blockWord around `elem` ["let", "param", "contour", ""] ->
-      ["To give a name to a value, write: let name = value"]
-  (Word word, Just (Number _ _))
-    | not (Keyword.isReserved word),
-      not (isLineStart around),
-      Nothing <- CharacterFix.unitMeant word ->
-      [ "If "
-          <> quote word
-          <> " is a unit: the units are "
-          <> Text.intercalate ", " (map unitName [minBound .. maxBound])
-          <> "."
-      ]
-  _ -> []
 
 tokenOf :: FoundText -> Maybe Token_
 tokenOf found = case found of

@@ -14,6 +14,7 @@ import Base.Name (Name (..))
 import Base.Region (Located (..), Region (..))
 import Base.Result (Result (..))
 import Data.List (sortOn)
+import Data.List.NonEmpty (NonEmpty)
 import Data.List.NonEmpty qualified as NonEmpty
 import Data.Maybe qualified as Maybe
 import Data.Text (Text)
@@ -21,6 +22,7 @@ import Data.Text qualified as Text
 import Report.Report (ReportPlace (..))
 import Report.Report qualified as Report
 import Surface.Combinator (run)
+import Surface.CommentLine qualified as CommentLine
 import Surface.Error (Error)
 import Surface.Error qualified as Error
 import Surface.Foreign (ForeignLine, ForeignText)
@@ -50,12 +52,14 @@ parseExplained begin text = case drop maxTokens tokens of
   t : _ ->
     Result {warnings = [], errors = [Error.TooLong (Token.place t) maxTokens], output = Nothing}
   [] -> case Foreign.recognise begin text (Maybe.mapMaybe regionOf errors) of
-    Nothing ->
-      Result
-        { warnings = [],
-          errors,
-          output = Just Program {statements = Maybe.fromMaybe [] parsed, comments}
-        }
+    Nothing -> case CommentLine.find tokens (map fst (Maybe.mapMaybe Error.failureOf errors)) of
+      Nothing ->
+        Result
+          { warnings = [],
+            errors,
+            output = Just Program {statements = Maybe.fromMaybe [] parsed, comments}
+          }
+      Just found -> withoutBrackets begin text found
     Just found -> withoutForeign begin text found
   where
     (tokens, comments) = Lexer.tokens begin text
@@ -90,6 +94,18 @@ withoutForeign begin text found =
     ls = Foreign.lines' found
     (tokens, comments) = Lexer.tokens begin (Foreign.blanked begin text found)
     (errors, parsed) = explained begin text tokens
+
+-- | Parses a text without comments in round brackets, which are lines at regions.
+withoutBrackets :: Int -> Text -> NonEmpty Region -> Result w Error Program
+withoutBrackets begin text found = rest {errors = Error.merged (ownErrors <> errors rest)}
+  where
+    rest = parseExplained begin (foldl blank text found)
+    ownErrors = [Error.BracketComment r (inner r) | r <- NonEmpty.toList found]
+    inner (Region from to) =
+      Text.strip (Text.take (to - from - 2) (Text.drop (from - begin + 1) text))
+    blank t (Region from to) =
+      let (kept, after) = Text.splitAt (from - begin) t
+       in kept <> Text.replicate (to - from) " " <> Text.drop (to - from) after
 
 -- | The errors of a program with the repairs of its statements, and the program. @text@ begins at
 -- the offset @begin@ and has the given tokens.

@@ -293,7 +293,7 @@ insertions f t =
   [ RepairCandidate
       [Insert k False [token w]]
       (if isWordText w then 3 else 2)
-      ("Write " <> quote w <> " before " <> quote (spelling (shape t)))
+      ("Write " <> quote w <> " before " <> quote (spelling (shape t)) <> remark w)
     | w <- wanted f,
       w `notElem` ["{", "}"],
       not (isSettingStart f) || (w, spelling (shape t)) `elem` settingWords || not (newLine t),
@@ -309,6 +309,7 @@ insertions f t =
        ]
   where
     k = index f
+    remark w = if w == "ccw" && firstWord f == "spindle" then ", for left-hand cutters" else ""
 
 -- | The first words of settings, each with a second one.
 settingWords :: [(Text, Text)]

@@ -172,7 +172,10 @@ statementAround tokens region = (upToEnd outer (reverse own <> from), length own
         [] -> nearest
     starts = [n | (n, t) <- zip [0 ..] before, beginsStatement t]
     isContour n = map shape (take 1 (drop n before)) == [Word "contour"]
-    isOpenAfter n = sum (map balance (drop n before)) > 0
+    -- True if the first brace after the start of a statement is still open.
+    isOpenAfter n =
+      let depths = scanl1 (+) (map balance (dropWhile ((/= Symbol "{") . shape) (drop n before)))
+       in not (null depths) && all (> 0) depths
     upToEnd open list = case list of
       [] -> []
       t : rest
@@ -263,7 +266,7 @@ nextStates s index expected =
           index,
           wanted =
             sortOn
-              (`notElem` ["outside", "closed", "line"])
+              (\w -> (w `notElem` ["outside", "closed", "line"], w == "ccw"))
               [Text.dropAround (`elem` ("‘’" :: String)) w | w <- expected, isQuoted w],
           isValueWanted = "a value" `elem` expected,
           isNameWanted = "a name" `elem` expected

@@ -11,11 +11,13 @@ module Surface.TokenFix
     sideFixes,
     isDecimalComma,
     isCallApart,
+    advice,
   )
 where
 
 import Base.Name qualified as Name
 import Base.Region (Region (..))
+import Data.Maybe (listToMaybe)
 import Data.Text (Text)
 import Data.Text qualified as Text
 import Report.Fix (Fix (..))
@@ -23,7 +25,8 @@ import Report.Fix qualified as Fix
 import Report.Report (quote)
 import Surface.CharacterFix (powerFixes, unitMeant)
 import Surface.Keyword qualified as Keyword
-import Surface.Token (Token (..), Token_ (..), describe, scaledDigits)
+import Surface.StatementForm qualified as StatementForm
+import Surface.Token (Token (..), Token_ (..), describe, scaledDigits, unitName)
 import Surface.TokenContext (TokenContext (..), following, previous)
 import Surface.WordMeaning (statementMeant, typeWords)
 
@@ -47,6 +50,33 @@ isCallApart token region around = case (token, previous around) of
     soft = Text.words "cipher joggle depth step radius to by gear height diameter nose with"
 
 -- Signs and words
+
+-- | Suggests what the author meant by a misplaced token, judged by the tokens around it.
+advice :: Token_ -> TokenContext -> [Text]
+advice token around = case (token, shape <$> listToMaybe (before around)) of
+  (Symbol ",", _)
+    | isDecimalComma token around -> []
+  (Symbol ",", _)
+    | StatementForm.blockWord around == "contour" ->
+      [ "The elements of a contour follow one another without commas, and a point is in brackets: \
+        \(0, 0)."
+      ]
+  (Symbol "*", Just (Symbol "*")) -> ["There are no powers: write x * x."]
+  (Symbol "=", Just (Symbol "=")) -> []
+  (Symbol "=", _)
+    | StatementForm.blockWord around `elem` ["let", "param", "contour", ""] ->
+      ["To give a name to a value, write: let name = value"]
+  (Word word, Just (Number _ _))
+    | not (Keyword.isReserved word),
+      not (isLineStart around),
+      Nothing <- unitMeant word ->
+      [ "If "
+          <> quote word
+          <> " is a unit: the units are "
+          <> Text.intercalate ", " (map unitName [minBound .. maxBound])
+          <> "."
+      ]
+  _ -> []
 
 -- | Fixes for a token in place of the expected ones, which @expected@ describes.
 unexpectedFixes :: Region -> Token_ -> [Text] -> TokenContext -> [Fix]

@@ -38,7 +38,10 @@ meanings =
           ("turn", "lathe insert turning"),
           ("at", "on in through to from @ points"),
           ("depth", "deep to z down by thickness"),
-          ("step", "by stepdown stepover step_over step_down stepsize per every"),
+          ( "step",
+            "by stepdown stepover step_over step_down stepsize per every doc ap \
+            \depth_of_cut woc ae width_of_cut"
+          ),
           ("near", "at from by close"),
           ("line", "linear straight tangent"),
           ("arc", "circle circular round radius quarter"),
