@@ -18,6 +18,7 @@ import Base.Name (Name (..))
 import Base.Name qualified as Name
 import Base.Region (Region (..))
 import Checked.ArithmeticReport
+import Checked.CallReport
 import Checked.ErrorFix (WrittenTerm)
 import Checked.ErrorFix qualified as ErrorFix
 import Checked.NameMeaning qualified as NameMeaning
@@ -104,6 +105,14 @@ data Error
   | -- | the name of a function without the arguments that it needs: the name, and the forms of the
     -- function as calls. If the name is that of a divisor, also the end of the dividend
     FunctionAsValue Region Name [Text] (Maybe Int)
+  | -- | a space between the name of a function and the bracket of its arguments: the name, and the
+    -- space
+    CallApart Region Name Region
+  | -- | the number of a tool with the letter T: the name, its digits
+    ToolLetter Region Name Text
+  | -- | numbers in place of vectors in one call: the function, the regions of the numbers, each
+    -- with the name of its parameter, and the call with the names of all parameters
+    NumberForVector Region Name [(Region, Text)] Text
   | -- | a circle as an element of a contour without the sense that it needs
     SenseMissing Region
   | -- | a sense before an element that is no circle: the type of the element
@@ -256,7 +265,7 @@ toReport err = case err of
       { label = Type.describe found,
         others = decidedLabels elsewhere,
         fixes = ErrorFix.mismatchFixes region expected found term,
-        hints = mismatchHint expected found
+        hints = mismatchHint expected found <> callHint term
       }
   Disagree region operator (leftRegion, left) (rightRegion, right) elsewhere terms ->
     ( at
@@ -299,40 +308,11 @@ toReport err = case err of
         fixes = ErrorFix.measureFixes values
       }
   ArgumentCount region (Name name) wanted given commas points ->
-    ( at
-        region
-        "E0208"
-        ( quote name
-            <> " takes "
-            <> arguments (length wanted)
-            <> ", but "
-            <> Decimal.whole (length given)
-            <> (if length given == 1 then " is" else " are")
-            <> " given"
-        )
-    )
-      { message =
-          [ "Missing: " <> Text.intercalate ", " (map fst missing) <> "."
-            | let missing = drop (length given) wanted,
-              not (null missing)
-          ],
-        fixes =
-          if null points
-            then ErrorFix.decimalFixes commas <> ErrorFix.argumentFixes wanted given
-            else points,
-        hints = ["Write " <> name <> "(" <> Text.intercalate ", " (map fst wanted) <> ")."]
-      }
-  Swapped region (Name name) given form (i, j) ->
-    (at region "E0218" ("two arguments of " <> quote name <> " are in the wrong order"))
-      { message =
-          ["It is called as " <> form <> "."],
-        others = [Label r (Type.describe t) | (r, t) <- given],
-        fixes =
-          [ Fix.swap "Exchange these two arguments." a b
-            | (a, _) : _ <- [drop i given],
-              (b, _) : _ <- [drop j given]
-          ]
-      }
+    argumentCountReport region name wanted given commas points
+  Swapped region (Name name) given form order -> swappedReport region name given form order
+  CallApart region (Name name) gap -> apartReport region name gap
+  ToolLetter region (Name name) digits -> toolLetterReport region name digits
+  NumberForVector region (Name name) numbers form -> vectorReport region name numbers form
   NotAFunction region (Name name) defined count ->
     (at region "E0209" (quote name <> " is a value, not a function"))
       { others = [Label r "defined here" | Just r <- [defined]],
@@ -378,7 +358,7 @@ toReport err = case err of
           [ "A contour leads along lines, circles, curves and open contours, and through \
             \points."
           ],
-        fixes = ErrorFix.listFixes region t,
+        fixes = ErrorFix.curveFixes region term (ErrorFix.listFixes region t),
         hints = ["If two numbers are a point, write them in brackets: (40, 0)." | Quantity _ <- [t]]
       }
   NoPart region ->
@@ -525,9 +505,6 @@ traversalHint t = case t of
 at :: Region -> ReportCode -> Text -> Report
 at region code = report Error code (InSource region)
 
-arguments :: Int -> Text
-arguments n = if n == 1 then "1 argument" else Decimal.whole n <> " arguments"
-
 -- | The labels of a report on types that do not fit. They are at other regions than the report, at
 -- which the use of a term decided one of these types. A pair contains such a region and the type.
 decidedLabels :: [(Region, Type)] -> [Label]
@@ -556,6 +533,10 @@ mismatchHint expected found
   | Type.isSquare expected =
     ["The root is taken of a number, of an area, or of another product of two equal quantities."]
   | otherwise = []
+
+-- | The hint that shows the call of which a term is an argument.
+callHint :: WrittenTerm -> [Text]
+callHint term = ["It is called as " <> form <> "." | Just form <- [ErrorFix.callForm term]]
 
 -- | Names the letters of the other alphabet in a name that looks like a known one.
 lookAlikeHint :: Text -> [Text] -> [Text]

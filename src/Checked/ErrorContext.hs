@@ -8,12 +8,16 @@ where
 import Base.Name (Name (..))
 import Base.Region (Located (..), Region (..))
 import Checked.Builtin qualified as Builtin
+import Checked.CallError qualified as CallError
 import Checked.Error (Error (..), StatementMove (..))
+import Checked.Error qualified as Error
 import Checked.ErrorFix
-  ( WrittenTerm (WrittenTerm, freeName, isOwnCall, isPairList, literal, statement),
+  ( WrittenTerm (WrittenTerm, callForm, curve, freeName, isOwnCall, isPairList, literal, statement),
   )
 import Checked.ErrorFix qualified as ErrorFix
 import Checked.Type qualified as Type
+import Data.Char (isDigit)
+import Data.Foldable (toList)
 import Data.List (find, sortOn)
 import Data.Maybe (fromMaybe, isJust, isNothing, listToMaybe, mapMaybe, maybeToList)
 import Data.Ord (Down (..))
@@ -21,6 +25,7 @@ import Data.Set (Set)
 import Data.Set qualified as Set
 import Data.Text (Text)
 import Data.Text qualified as Text
+import Report.Report (ReportPlace (..), place)
 import Surface.Keyword qualified as Keyword
 import Surface.Syntax (Expr_ (..), Item_ (..), Operator (..), Spin (..), Statement, Statement_ (..))
 import Surface.Syntax qualified as Surface
@@ -32,8 +37,11 @@ complete :: [Statement] -> [Error] -> [Error]
 complete statements errors = case errors of
   [] -> []
   _ ->
-    oncePerSum . map (completed statements) . oncePerPoint statements . oncePerName $
-      besideElements statements (filter (not . isLost) errors)
+    oncePerSum . map (completed statements) . oncePerPoint statements . oncePerName
+      . CallError.oncePerCall statements
+      . map (toolLetter statements)
+      . besideSpaces statements
+      $ besideElements statements (filter (not . isLost) errors)
   where
     -- The name of a definition that cannot be parsed is unknown, and may be any that is missing.
     isLost e = case e of
@@ -106,12 +114,55 @@ besideElements statements errors = mapMaybe joined errors
       _ -> Just e
     isNext at r = start r > end at && start r <= end at + 3
     isElement at = at `elem` elements
-    elements =
-      [ region x
-        | s <- concatMap SyntaxWalk.statementsIn statements,
-          Located _ (Element _ x _ _) <- SyntaxWalk.itemsOf s
-      ]
+    elements = map region (elementsIn statements)
     links = ["fillet", "chamfer", "tangent", "smooth", "meet", "feed", "slow", "allowance", "bevel"]
+
+-- | The expressions that are elements of contours.
+elementsIn :: [Statement] -> [Surface.Expr]
+elementsIn statements =
+  [ x
+    | s <- concatMap SyntaxWalk.statementsIn statements,
+      Located _ (Element _ x _ _) <- SyntaxWalk.itemsOf s
+  ]
+
+-- | The errors of which the name of a function and the arguments behind a space, which look like
+-- two elements of a contour, are one.
+besideSpaces :: [Statement] -> [Error] -> [Error]
+besideSpaces statements errors = mapMaybe joined errors
+  where
+    joined e = case e of
+      FunctionAsValue at name _ Nothing
+        | next : _ <- tuplesBehind at -> Just (CallApart at name (Region (end at) (start next)))
+      _ | isInArguments e -> Nothing
+      _ -> Just e
+    tuplesBehind at =
+      [ r
+        | Located r x <- elementsIn statements,
+          isTuple x,
+          start r > end at,
+          start r <= end at + 3
+      ]
+    isTuple x = case x of
+      Pair _ _ -> True
+      Triple {} -> True
+      _ -> False
+    apart = [r | FunctionAsValue at _ _ Nothing <- errors, r <- tuplesBehind at]
+    isInArguments e = case place (Error.toReport e) of
+      InSource r -> any (contains r) apart
+      _ -> False
+
+-- | An error of the number of a tool with the letter T.
+toolLetter :: [Statement] -> Error -> Error
+toolLetter statements e = case e of
+  UndefinedName at name@(Name text) _ _
+    | Just ('T', digits') <- Text.uncons text,
+      Text.all isDigit digits' && not (Text.null digits'),
+      at `elem` numbers ->
+      ToolLetter at name digits'
+  _ -> e
+  where
+    numbers =
+      [region n | Located _ (Change n _) <- concatMap SyntaxWalk.statementsIn statements]
 
 -- | The errors of which those that report the same unknown name are one.
 oncePerName :: [Error] -> [Error]
@@ -234,11 +285,25 @@ termAt statements at =
       freeName = listToMaybe [(name, free statements name) | Variable (Name name) <- terms],
       ErrorFix.words = listToMaybe (mapMaybe written terms),
       isPairList = or [length es `elem` [2, 3] | List es <- terms],
-      isOwnCall = or [isNothing (Builtin.lookup name) | Call (Located _ (Name name)) _ <- terms]
+      isOwnCall = or [isNothing (Builtin.lookup name) | Call (Located _ (Name name)) _ <- terms],
+      callForm = CallError.formAround statements at,
+      curve = listToMaybe [c | Variable n <- terms, Just c <- [curveThrough statements at n]]
     }
   where
     around = innermostFirst at (concatMap SyntaxWalk.statementsIn statements)
     terms = termsAt statements at
+
+-- | The name of a curve through the points of a table that is defined above a region.
+curveThrough :: [Statement] -> Region -> Name -> Maybe Text
+curveThrough statements at table =
+  listToMaybe
+    [ name
+      | Located _ (Curve (Located r (Name name)) (Located _ (Call _ as))) <-
+          concatMap SyntaxWalk.statementsIn statements,
+        Surface.Given (Located _ (Variable n)) <- take 1 (toList as),
+        n == table,
+        start r < start at
+    ]
 
 -- | A number or a name as it is written.
 written :: Expr_ -> Maybe Text
@@ -270,7 +335,9 @@ definitionAt statements at (Name name) =
       freeName = Just (name, free statements name),
       ErrorFix.words = Just name,
       isOwnCall = False,
-      isPairList = False
+      isPairList = False,
+      callForm = Nothing,
+      curve = Nothing
     }
   where
     everything = concatMap SyntaxWalk.statementsIn statements

@@ -15,6 +15,7 @@ module Checked.ErrorFix
     argumentFixes,
     decimalFixes,
     listFixes,
+    curveFixes,
     cipherFixes,
     formsHint,
     joinedWords,
@@ -51,7 +52,11 @@ data WrittenTerm = WrittenTerm
     -- | true of a call of a function of the program, in whose body the mistake may be
     isOwnCall :: Bool,
     -- | true of a list of two or three items
-    isPairList :: Bool
+    isPairList :: Bool,
+    -- | the call of which the term is an argument, with the names of its parameters
+    callForm :: Maybe Text,
+    -- | the name of the curve through the points of a table that the term names
+    curve :: Maybe Text
   }
   deriving stock (Eq, Show)
 
@@ -64,7 +69,9 @@ unwritten =
       freeName = Nothing,
       words = Nothing,
       isOwnCall = False,
-      isPairList = False
+      isPairList = False,
+      callForm = Nothing,
+      curve = Nothing
     }
 
 -- | A term as the subject of a sentence: as it is written, or "this".
@@ -350,6 +357,13 @@ decimalFixes commas =
       (Fix.joined "Write a decimal point." [Fix.exchange "" comma "." | comma <- commas])
     | not (null commas)
   ]
+
+-- | Fixes that take the curve through a table instead of the table, or else other ones.
+curveFixes :: Region -> WrittenTerm -> [Fix] -> [Fix]
+curveFixes region term others = case (curve term, words term) of
+  (Just name, Just table) ->
+    [Fix.exchange ("Write " <> name <> ", the curve through " <> table <> ".") region name]
+  _ -> others
 
 -- | Fixes that make elements of a contour of the items of a list, or of a table.
 listFixes :: Region -> Type -> [Fix]

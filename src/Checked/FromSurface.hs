@@ -13,6 +13,7 @@ where
 import Base.Name (Name (..))
 import Base.Region (Located (..), Region (..))
 import Base.Result (Result (..))
+import Checked.CallError qualified as CallError
 import Checked.Contour (item)
 import Checked.Deferred (Deferred, resolveAll)
 import Checked.Dimension qualified as Dimension
@@ -45,6 +46,7 @@ import Data.List.NonEmpty qualified as NonEmpty
 import Data.Map.Strict (Map)
 import Data.Map.Strict qualified as Map
 import Data.Maybe (catMaybes, listToMaybe)
+import Data.Set qualified as Set
 import Data.Text (Text)
 import Surface.Syntax (Statement)
 import Surface.Syntax qualified as Surface
@@ -65,28 +67,22 @@ checkBy isFast Surface.Program {Surface.statements = written} =
     { warnings = [],
       errors =
         RequiredSetting.check written
-          <> ErrorContext.complete written (filter (not . isExcused) found <> radians),
+          <> ErrorContext.complete
+            written
+            (CallError.inOrder mistakesOf written (filter (not . isExcused) found) <> radians),
       -- The geometry of an angle in the wrong unit would only make further errors.
       output = if null radians then Just program else Nothing
     }
   where
-    (found, solution, checked, mentions) =
+    (found, solution, checked, mentions) = inferred written
+    inferred ss =
       Inference.run
-        ( catMaybes
-            <$> mapM (statement TypingEnvironment {definitions = definedIn written, isFast}) written
-        )
-    -- Numbers with pi and without units that become angles by the use of their names.
-    radians =
-      [ RadiansWithoutUnit (region e)
-        | Located _ (Surface.LetValue n e) <- concatMap SyntaxWalk.statementsIn written,
-          SyntaxWalk.isRadians e,
-          or
-            [ t == Type.angle
-              | m <- mentions,
-                Checked.place m == region n,
-                Checked.OfValue t <- [Checked.typing m]
-            ]
-      ]
+        (catMaybes <$> mapM (statement TypingEnvironment {definitions = definedIn ss, isFast}) ss)
+    mistakesOf ss = let (errors, _, _, _) = inferred ss in errors
+    -- The geometry of a name of the wrong type would only make further errors.
+    suspects = CallError.suspects written found
+    isLeftOut s = not (Set.null suspects) && CallError.isDoubtful written suspects (region s)
+    radians = radiansIn written mentions
     -- A file that could not be imported may define any name, so unknown names are not reported.
     isExcused e = isImportBroken && isUndefinedName e
     isImportBroken = or [True | Located _ (Surface.Broken (Just "import") _) <- written]
@@ -95,9 +91,23 @@ checkBy isFast Surface.Program {Surface.statements = written} =
         { name = listToMaybe [value n | Located _ (Surface.Part n _) <- written],
           title = listToMaybe [value t | Located _ (Surface.Part _ (Just t)) <- written],
           machine = listToMaybe [m | Located _ (Surface.Machine m) <- written],
-          statements = map ($ solution) checked,
+          statements = filter (not . isLeftOut) (map ($ solution) checked),
           mentions
         }
+
+-- | The errors of numbers with pi and without units that become angles by the use of their names.
+radiansIn :: [Statement] -> [Checked.Mention] -> [Error]
+radiansIn written mentions =
+  [ RadiansWithoutUnit (region e)
+    | Located _ (Surface.LetValue n e) <- concatMap SyntaxWalk.statementsIn written,
+      SyntaxWalk.isRadians e,
+      or
+        [ t == Type.angle
+          | m <- mentions,
+            Checked.place m == region n,
+            Checked.OfValue t <- [Checked.typing m]
+        ]
+  ]
 
 isUndefinedName :: Error -> Bool
 isUndefinedName e = case e of

@@ -105,14 +105,18 @@ toReport err = case err of
       { fixes =
           [ Fix.proposed
               ( Fix.exchange
-                  ("Name the column " <> quote old <> " " <> name <> ".")
+                  ("Rename the column " <> quote old <> " to " <> name <> ".")
                   r
                   name
               )
-            | (r, Name old) <- columns,
-              old `notElem` ["x", "y"]
+            | (k, (r, Name old)) <- zip [0 ..] columns,
+              old `notElem` ["x", "y"],
+              Name old `notElem` map snd (take k columns)
           ],
-        hints = ["Every table has columns x and y; others may follow."]
+        hints =
+          [ "Every table has columns x and y; others may follow."
+            | null [old | (_, Name old) <- columns, old `notElem` ["x", "y"]]
+          ]
       }
   RowLength region number columns cells written ->
     ( at

@@ -8,6 +8,8 @@ module Surface.SyntaxWalk
     ofSetting,
     parts,
     everywhere,
+    mapParts,
+    mentionsAny,
     isRadians,
   )
 where
@@ -16,6 +18,8 @@ import Base.Name (Name (..))
 import Base.Region (Located (..))
 import Data.List.NonEmpty qualified as NonEmpty
 import Data.Maybe (maybeToList)
+import Data.Set (Set)
+import Data.Set qualified as Set
 import Surface.Syntax
 
 -- | True of a number that is computed of @pi@ and of numbers without units by multiplication and
@@ -126,6 +130,42 @@ parts (Located _ e) = case e of
   Triple a b c -> [a, b, c]
   List es -> es
   Each a _ list -> [a, list]
+
+-- | An expression with a function applied to the expressions directly in it.
+mapParts :: (Expr -> Expr) -> Expr -> Expr
+mapParts f (Located at e) = Located at $ case e of
+  Literal _ _ -> e
+  Variable _ -> e
+  Call name arguments -> Call name (fmap argument arguments)
+  Negate a -> Negate (f a)
+  Not a -> Not (f a)
+  Binary op a b -> Binary op (f a) (f b)
+  Range a b step -> Range (f a) (f b) (fmap f step)
+  If a b c -> If (f a) (f b) (f c)
+  Pair a b -> Pair (f a) (f b)
+  Triple a b c -> Triple (f a) (f b) (f c)
+  List es -> List (map f es)
+  Each a n list -> Each (f a) n (f list)
+  where
+    argument a = case a of
+      Given x -> Given (f x)
+      Chosen selector x -> Chosen selector (f x)
+      Ranked rank -> Ranked rank
+
+-- | True if an expression in a statement or in its blocks is one of the names, or calls it.
+mentionsAny :: Set Name -> Statement -> Bool
+mentionsAny names s =
+  or
+    [ True
+      | s' <- statementsIn s,
+        Located _ e <- concatMap everywhere (ofStatement s'),
+        isNamed e
+    ]
+  where
+    isNamed e = case e of
+      Variable n -> Set.member n names
+      Call n _ -> Set.member (value n) names
+      _ -> False
 
 ofArgument :: Argument -> [Expr]
 ofArgument a = case a of

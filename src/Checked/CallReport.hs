@@ -1,0 +1,129 @@
+{-# OPTIONS_GHC -O0 #-}
+
+-- | The reports of calls whose arguments are in the wrong number, order, place or form.
+module Checked.CallReport
+  ( apartReport,
+    argumentCountReport,
+    swappedReport,
+    toolLetterReport,
+    vectorReport,
+    arguments,
+  )
+where
+
+import Base.Decimal qualified as Decimal
+import Base.Region (Region (..))
+import Checked.ErrorFix qualified as ErrorFix
+import Checked.Type (Type)
+import Checked.Type qualified as Type
+import Data.Text (Text)
+import Data.Text qualified as Text
+import Report.Fix (Fix)
+import Report.Fix qualified as Fix
+import Report.Report
+  ( Label (..),
+    Report (..),
+    ReportCode,
+    ReportPlace (..),
+    Severity (..),
+    quote,
+    report,
+  )
+
+-- | The report of a space between the name of a function and its bracket, which is at @gap@.
+apartReport :: Region -> Text -> Region -> Report
+apartReport region name gap =
+  ( at
+      region
+      "E0210"
+      ("there is a space between " <> quote name <> " and the bracket of its arguments")
+  )
+    { fixes = [Fix.removal "Write the bracket of a call right after the name." gap]
+    }
+
+-- | The report of a call with a wrong number of arguments.
+argumentCountReport ::
+  Region -> Text -> [(Text, Maybe Text)] -> [Region] -> [Region] -> [Fix] -> Report
+argumentCountReport region name wanted given commas points =
+  ( at
+      region
+      "E0208"
+      ( quote name
+          <> " takes "
+          <> arguments (length wanted)
+          <> ", but "
+          <> Decimal.whole (length given)
+          <> (if length given == 1 then " is" else " are")
+          <> " given"
+      )
+  )
+    { message =
+        ["It is called as " <> name <> "(" <> Text.intercalate ", " (map fst wanted) <> ")."],
+      fixes =
+        if null points
+          then ErrorFix.decimalFixes commas <> ErrorFix.argumentFixes wanted given
+          else points
+    }
+
+-- | The report of two arguments, with the given indices, in the wrong order. @form@ is the call in
+-- the right order.
+swappedReport :: Region -> Text -> [(Region, Type)] -> Text -> (Int, Int) -> Report
+swappedReport region name given form (i, j) =
+  (at region "E0218" ("two arguments of " <> quote name <> " are in the wrong order"))
+    { message = ["It is called as " <> form <> "."],
+      others = [Label r (Type.describe t) | (r, t) <- given],
+      fixes =
+        [ Fix.swap "Exchange these two arguments." a b
+          | (a, _) : _ <- [drop i given],
+            (b, _) : _ <- [drop j given]
+        ]
+    }
+
+-- | The report of the number of a tool that is written with the letter T.
+toolLetterReport :: Region -> Text -> Text -> Report
+toolLetterReport region name digits =
+  (at region "E0201" ("nothing is named " <> quote name))
+    { fixes =
+        [Fix.exchange ("Write the number of the tool without T: " <> digits) region digits]
+    }
+
+-- | The report of numbers as arguments of a function, in place of vectors. Each has the name of its
+-- parameter. @form@ is the call with the names of all parameters.
+vectorReport :: Region -> Text -> [(Region, Text)] -> Text -> Report
+vectorReport region name numbers form =
+  ( at
+      region
+      "E0205"
+      ( ErrorFix.joinedWords (map (quote . snd) numbers)
+          <> " of "
+          <> quote name
+          <> ( if isOne
+                 then " is a vector (x, y), but this is a number"
+                 else " are vectors (x, y), but these are numbers"
+             )
+      )
+  )
+    { message = ["It is called as " <> form <> "."],
+      others = [Label r (quote title') | (r, title') <- drop 1 numbers],
+      fixes =
+        [ Fix.joined
+            ( if isOne
+                then "Write it as a vector: (x, 0) along x, or (0, y) along y."
+                else "Write each as a vector: (x, 0) along x, and (0, y) along y."
+            )
+            [ if Text.isPrefixOf "other" title'
+                then Fix.enclosure "" "(0, " r ")"
+                else Fix.enclosure "" "(" r ", 0)"
+              | (r, title') <- numbers
+            ]
+        ]
+    }
+  where
+    isOne = length numbers == 1
+
+-- | The count of arguments in words.
+arguments :: Int -> Text
+arguments n = if n == 1 then "1 argument" else Decimal.whole n <> " arguments"
+
+at :: Region -> ReportCode -> Text -> Report
+at region code = report Error code (InSource region)
