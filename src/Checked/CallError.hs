@@ -84,10 +84,10 @@ inOrder recheck statements errors = case solutions of
         | c <- take 4 (knownCalls statements),
           [a, b] <- [values c],
           a `elem` decided || b `elem` decided,
-          [(_, first), (_, second)] <- [parameters c],
           let left = recheck (map (exchangedAt (place c)) statements),
           length left < length errors,
-          all (`elem` errors) left
+          all (`elem` errors) left,
+          [(_, first), (_, second)] <- [parameters c]
       ]
 
 -- | A statement with the two arguments of the call at a region exchanged.

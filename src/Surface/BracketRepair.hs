@@ -187,8 +187,8 @@ broughtForward f =
            (stepAt k from f : map Delete [from .. from + length value])
            1
            "Write the step before the braces"
-         | Just (Symbol "{") <- [shape <$> at f k],
-           "step" `elem` wanted f,
+         | "step" `elem` wanted f,
+           Just (Symbol "{") <- [shape <$> at f k],
            from <-
              take
                1

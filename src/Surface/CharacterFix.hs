@@ -182,10 +182,10 @@ qualifiedFixes around = case names of
     names =
       [ renamed owner own (place a) (place b)
         | (a, t, b) <- zip3 line (drop 1 line) (drop 2 line),
+          attached t && attached b,
           Word owner <- [shape a],
           Stray '.' <- [shape t],
-          Word own <- [shape b],
-          attached t && attached b
+          Word own <- [shape b]
       ]
     renamed owner own a b =
       let new

@@ -223,38 +223,7 @@ toReport err = case err of
                ]
       }
   Collision region tool first second p largest ->
-    ( at
-        (origin first)
-        "E0404"
-        (cutter tool <> " does not fit between " <> shape first <> " and " <> shape second)
-    )
-      { label = shape first,
-        others =
-          secondLabel first second
-            <> [Label region (workVerb tool <> " here") | region /= origin first],
-        message =
-          [ "On its way along the first one, with its centre at "
-              <> Vec.toText 3 p
-              <> ", it would cut the second one."
-          ]
-            <> ["One circle lies inside the other." | isInside (segment first) (segment second)],
-        fixes = smaller <> [ErrorFix.restFix (places tool) | isJust largest],
-        hints =
-          [ if null smaller
-              then "Correct the place or the size of one of the two. " <> largestFit tool largest
-              else "Or correct the place or the size of one of the two."
-          ]
-      }
-    where
-      isInside a b = case (a, b) of
-        (Arc {centre = c, start = s}, Arc {centre = d, start = t}) ->
-          let (r, q) = (Segment.radius c s, Segment.radius d t)
-           in Vec.distance c d <= plus (minus (max r q) (min r q)) Geometry.coincident
-        _ -> False
-      -- A much smaller cutter is hardly meant: then a number is wrong.
-      smaller
-        | any (> times 0.5 (radius tool)) largest = ErrorFix.sizeFixes tool largest
-        | otherwise = []
+    collisionReport region tool (first, second) p largest
   CutsPart region move element depth intrusion p beginning ->
     (at region "E0405" ("this move " <> intruding intrusion depth))
       { label = "the move to here",
@@ -496,6 +465,47 @@ intruding intrusion depth = case intrusion of
   CutsContour -> "cuts into the part by " <> Decimal.mm depth
   Crossing -> "crosses the contour of the part"
   CutsAllowance -> "takes " <> Decimal.mm depth <> " of what is to be left on the contour"
+
+-- | The report of 'Collision'.
+collisionReport :: Region -> Tool -> (Element, Element) -> Point -> Maybe Mm -> Report
+collisionReport region tool (first, second) p largest =
+  (at (origin first) "E0404" title)
+    { label = shape first,
+      others =
+        secondLabel first second
+          <> [Label region (workVerb tool <> " here") | region /= origin first],
+      message =
+        [ "On its way along the first one, with its centre at "
+            <> Vec.toText 3 p
+            <> ", the cutter would cut the second one."
+          | not (isInside (segment first) (segment second))
+        ],
+      fixes =
+        if isSlight
+          then ErrorFix.sizeFixes tool largest <> [ErrorFix.restFix (places tool)]
+          else [],
+      hints =
+        if isSlight
+          then ["Or correct the place or the size of one of the two."]
+          else
+            ["Correct the place or the size of one of the two. " <> largestFit tool largest]
+              <> [ "Or let the material that the cutter does not reach stay: rest allowed."
+                   | isJust largest
+                 ]
+    }
+  where
+    title
+      | isInside (segment first) (segment second) =
+        shape first <> " and " <> shape second <> " lie one inside the other"
+      | otherwise =
+        cutter tool <> " does not fit between " <> shape first <> " and " <> shape second
+    -- A much smaller cutter is hardly meant: then a number is wrong.
+    isSlight = any (> times 0.5 (radius tool)) largest
+    isInside a b = case (a, b) of
+      (Arc {centre = c, start = s}, Arc {centre = d, start = t}) ->
+        let (r, q) = (Segment.radius c s, Segment.radius d t)
+         in Vec.distance c d <= plus (minus (max r q) (min r q)) Geometry.coincident
+      _ -> False
 
 -- | The sentence that an element is too short for a fillet that the tool could follow. Empty if it
 -- is long enough.

@@ -208,7 +208,8 @@ workVerb tool = case work tool of
   Milled -> "milled"
   Turned -> "turned"
 
--- | The text for an element: a line with its ends, an arc with radius and centre, or a curve.
+-- | The text for an element: a line with its ends, an arc or a whole circle with its radius and
+-- centre, or a curve.
 shape :: Element -> Text
 shape element = case segment element of
   Straight _ _ | ofCurve element -> "the curve"
@@ -218,8 +219,11 @@ shape element = case segment element of
   Straight a b -> "the line from " <> Vec.toText 3 a <> " to " <> Vec.toText 3 b
   Arc {start, centre, sweep = Rad s} ->
     "the "
-      <> (if s > 0 then "counter-clockwise" else "clockwise")
-      <> " arc of radius "
+      <> ( if abs s > 2 * pi - 1e-9
+             then "circle"
+             else (if s > 0 then "counter-clockwise" else "clockwise") <> " arc"
+         )
+      <> " of radius "
       <> Decimal.mm (Segment.radius centre start)
       <> " about "
       <> Vec.toText 3 centre
