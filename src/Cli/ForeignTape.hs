@@ -66,8 +66,7 @@ otherDamaged compiled TapeFile {fileName, rows} damage =
     cutOff r = r {hints = ["Copy the file again, or punch the tape anew with partc compile."]}
     (source, report) = damaged (Compile.machine compiled) fileName rows damage
 
--- | The source and the reports of the findings about a tape. The argument
--- @source@ is the program's source; the result contains the text of the tape as well, if it is a
+-- | The source and the reports of the findings about a tape. The argument @source@ is the program's source; the result contains the text of the tape as well, if it is a
 -- text file. @frames@ are the frames that are read from the tape. The first report has the first
 -- difference from the program's own tape.
 disproven :: Compiled -> TapeFile -> [Frame] -> Source -> Proof -> (Source, [Report])
@@ -81,12 +80,19 @@ disproven compiled TapeFile {fileName, rows = given} frames source proof
     machine = Compile.machine compiled
     found = Proof.toReports machine proof
     base = Region.nextOffset source
-    -- The program's own tape is proven, so all findings follow from the first change.
-    differing reports = case Report.sorted reports of
-      first : more
-        | isOneChange compiled given -> [withDifference compiled base given first]
-        | otherwise -> withDifference compiled base given first : more
-      [] -> []
+    -- The findings that one change makes are one report, the first in the order of the tape.
+    differing reports
+      | isOneChange compiled given = case reports of
+        first : more ->
+          [withDifference compiled base given first {message = message first <> moreText more}]
+        [] -> []
+      | otherwise = case Report.sorted reports of
+        first : more -> withDifference compiled base given first : more
+        [] -> []
+    moreText more = case length more of
+      0 -> []
+      1 -> ["The proof has one more finding of this change."]
+      n -> ["The proof has " <> Decimal.whole n <> " more findings of this change."]
     withLine finding report =
       report
         { others =

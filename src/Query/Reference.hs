@@ -79,9 +79,10 @@ data SharedReferences = SharedReferences
   }
   deriving stock (Eq, Show)
 
--- | The same as 'references' for several programs: the mentions in the program of the snapshot
--- @now@, in its imported files as programs of their own, and in all other open programs that share
--- the file of the definition. A name of the language is looked for in the one program only.
+-- | The mentions, by files, of the name at the offset @at@ of the present text. They are looked for
+-- in the program of the snapshot @now@, in its imported files as programs of their own, and in all
+-- other open programs that share the file of the definition. @before@ is the last snapshot without
+-- errors, as for 'references'. A name of the language is looked for in the one program only.
 sharedReferences ::
   [OpenProgram] ->
   Snapshot ->

@@ -89,7 +89,7 @@ examine set isFirst onPass pass =
     missed = if null cutting then [] else missedBy cutting
     -- A pass without motions cuts at most what the cutter touches at its start.
     isNeverCut = null cutting && any isTooMuch (missedBy [Motion.ofNoLength (entry job) level])
-    -- The cutter is nowhere near an element: the deviation of other motions there says nothing.
+    -- No motion at this height comes near an element.
     isLeftOut = isMissing found && tool > Mm 0 && any ((> plus tool tool) . Proof.amount) tooMuch
     tool = Part.radius (milling job)
     largest = Proof.deepest (missed <> strayed)
@@ -110,7 +110,7 @@ examine set isFirst onPass pass =
         }
     findings =
       gougeFindings allowedGouge gouges deepest
-        <> (if isLeftOut then [] else excessFindings allowedExcess tooMuch largest)
+        <> excessFindings allowedExcess tooMuch largest
         <> maybeToList (wrongSide scan)
         <> [neverBegun pass | isNeverCut || isLeftOut]
 

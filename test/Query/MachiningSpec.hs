@@ -70,7 +70,7 @@ isMachining = \case
   Linking -> False
   Commanding -> False
 
--- | The frames of drilling statements in the summaries: the line of the statement, the count.
+-- | The lines of the drilling statements, and the counts of their frames in the summaries.
 drillFrames :: Snapshot -> [(Int, Maybe Int)]
 drillFrames snapshot =
   [ (lineOf snapshot (Machining.statement s), Machining.ownFrames s)
@@ -79,7 +79,8 @@ drillFrames snapshot =
       Machining.passes s == 0
   ]
 
--- | The same from the frames themselves: the lines that ask for frames of drilling.
+-- | The lines of the drilling statements, and the counts of the planned frames for which each line
+-- asks.
 plannedDrillFrames :: Snapshot -> [PlannedFrame] -> [(Int, Maybe Int)]
 plannedDrillFrames snapshot planned =
   Map.toList

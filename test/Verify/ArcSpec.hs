@@ -230,8 +230,7 @@ flange name = describe (Text.unpack name) $ do
         ]
 
 -- | Law of a damaged tape: if samples show that it cuts too deep, there is a gouge; if they show
--- that it leaves too much, there is an excess, or the cutter never
--- comes to the contour.
+-- that it leaves too much, there is an excess.
 changed :: Machine -> Toolpath -> FrameProgram -> [Segment] -> Double -> Property
 changed machine path program contour radius =
   forAll (Arcs.change (map Frame.frame (Frame.plannedFrames program))) $ \(what, fs) ->
@@ -244,8 +243,7 @@ changed machine path program contour radius =
           tabulate "change" [takeWhile (/= '(') what]
             . classify (not gouges && not leaves) "within"
             . classify (null found) "proven"
-            $ (not gouges || any isGouge found)
-              && (not leaves || any (\f -> isExcess f || isNeverBegun f) found)
+            $ (not gouges || any isGouge found) && (not leaves || any isExcess found)
   where
     allowed = 0.02 + (let Mm pulse = Machine.planeResolution machine in pulse)
 
@@ -336,12 +334,9 @@ findingsBeside sense atStart d = findings machine path (Arcs.quantise machine pa
           commands = []
         }
 
-isGouge, isExcess, isNeverBegun, isNotFollowed :: Finding -> Bool
+isGouge, isExcess, isNotFollowed :: Finding -> Bool
 isGouge f = case f of
   Gouge {} -> True
-  _ -> False
-isNeverBegun f = case f of
-  NeverBegun {} -> True
   _ -> False
 isExcess f = case f of
   Excess {} -> True

@@ -403,14 +403,12 @@ isFound n f p =
       Frame.role (Frame.plannedFrames Flange.program !! (n - 1)) == Frame.Cutting 0
         && n < length Flange.frames - 12
 
--- | Test for a gouge or an excess in a frame or in a later one, or for a contour that is never
--- begun.
+-- | Test for a gouge or an excess in a frame or in a later one.
 leavesBandFrom :: Int -> Finding -> Bool
 leavesBandFrom n finding = case finding of
   Gouge w _ _ -> Proof.frame w >= n
   Excess w _ _ -> Proof.frame w >= n
   OffPlane m -> m == n
-  NeverBegun {} -> True
   _ -> False
 
 isExcess :: Finding -> Bool
