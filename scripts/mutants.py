@@ -137,8 +137,9 @@ def apply(name, root):
 
 
 def descriptions():
-    """The texts of the tests, with the gaps of long literals closed."""
+    """The texts of the tests, with the gaps of long literals closed, and the wrong programs with their names."""
     paths = glob.glob(os.path.join(TOP, "test", "**", "*.hs"), recursive=True)
+    paths += glob.glob(os.path.join(TOP, "test", "data", "wrong", "*.txt"))
     texts = []
     for path in paths:
         with open(path, encoding="utf-8") as stream:

@@ -66,9 +66,10 @@ otherDamaged compiled TapeFile {fileName, rows} damage =
     cutOff r = r {hints = ["Copy the file again, or punch the tape anew with partc compile."]}
     (source, report) = damaged (Compile.machine compiled) fileName rows damage
 
--- | The source and the reports of the findings about a tape. The argument @source@ is the program's source; the result contains the text of the tape as well, if it is a
--- text file. @frames@ are the frames that are read from the tape. The first report has the first
--- difference from the program's own tape.
+-- | The source and the reports of the findings about a tape. The argument @source@ is the
+-- program's source; the result contains the text of the tape as well, if it is a text file.
+-- @frames@ are the frames that are read from the tape. The first report has the first difference
+-- from the program's own tape.
 disproven :: Compiled -> TapeFile -> [Frame] -> Source -> Proof -> (Source, [Report])
 disproven compiled TapeFile {fileName, rows = given} frames source proof
   | isTextFile machine =

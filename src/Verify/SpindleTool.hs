@@ -14,6 +14,7 @@ where
 import Base.Quantity (Mm (..))
 import Data.IntMap.Strict qualified as IntMap
 import Data.List (foldl', nub)
+import Data.Maybe (catMaybes, fromMaybe, listToMaybe)
 import Data.Vector.Unboxed (Vector)
 import Data.Vector.Unboxed qualified as Vector
 import Frame.Frame (Frame, FrameProgram)
@@ -41,19 +42,22 @@ toolInFrame tools n = maybe (Mm 0) Mm (tools Vector.!? (n - 1))
 
 -- | Radius of the cutter in each frame of a tape, by the number of the frame from 1. The first
 -- frame with commands corresponds to the first such planned frame, the second to the second, and so
--- on. From one such frame to the next, the cutter stays the same. Nothing if the cutter in the
--- planned frames changes elsewhere.
+-- on. From one such frame to the next, the cutter stays the same. Where the program plans no motion,
+-- it is the cutter of the motions before. Nothing if the cutter in the planned frames changes
+-- elsewhere.
 toolsByCommands :: FrameProgram -> [Frame] -> Maybe (Int -> Mm)
 toolsByCommands program frames = do
   radii <- traverse (onlyRadius . filter (Frame.isMoving . Frame.frame)) plannedSections
-  let begins = IntMap.fromList (zip (1 : numbersOf frames) (radii <> repeat (Mm 0)))
+  let kept = drop 1 (scanl fromMaybe (firstOf radii) radii)
+      begins = IntMap.fromList (zip (1 : numbersOf frames) (kept <> repeat (last kept)))
   Just (\n -> maybe (Mm 0) snd (IntMap.lookupLE n begins))
   where
+    firstOf radii = fromMaybe (Mm 0) (listToMaybe (catMaybes radii))
     planned = Frame.plannedFrames program
     plannedSections = divided (numbersOf (map Frame.frame planned)) planned
     onlyRadius section = case nub (map Frame.cutterRadius section) of
-      [] -> Just (Mm 0)
-      [r] -> Just r
+      [] -> Just Nothing
+      [r] -> Just (Just r)
       _ -> Nothing
 
 -- | Numbers of the frames with commands after the first frame, counted from 1.

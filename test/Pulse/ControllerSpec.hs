@@ -214,8 +214,9 @@ feeds = do
         time = v / 5 + (100 - v * v / 10) / v
      in lasts lkiU m `shouldSatisfy` isNear 0.01 time
   where
-    -- The swing of the feed is from 0.900 to 1.273. If the radii of an arc differ, its last pulse may
-    -- go back: then this pulse and the one that it takes back are missing of the 64 of a window.
+    -- The swing of the feed is from 0.900 to 1.273. If the radii of an arc differ, its last pulse
+    -- may go back: then this pulse and the one that it takes back are missing of the 64 of a
+    -- window.
     swing = (0.900 * 62 / 64, 1.30)
     straightMachines = [lkp01f, kontur3p, lkiU, n55]
     head' list = case list of
