@@ -17,15 +17,7 @@ import Base.Region (Region (..))
 import Data.Text (Text)
 import Data.Text qualified as Text
 import Report.Fix qualified as Fix
-import Report.Report
-  ( Label (..),
-    Report (..),
-    ReportCode,
-    ReportPlace (..),
-    Severity (..),
-    quote,
-    report,
-  )
+import Report.Report (Label (..), Report (..), at, quote)
 import Surface.Token (Numeral (digits), Unit, scaledDigits, unitName)
 
 -- | Words after the stroke of a feed that the language does not have.
@@ -121,6 +113,3 @@ unknownUnitReport region n unit word speeds =
     }
   where
     perMinute factor = scaledDigits factor n <> " " <> unitName unit <> "/min"
-
-at :: Region -> ReportCode -> Text -> Report
-at region code = report Error code (InSource region)

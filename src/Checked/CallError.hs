@@ -71,14 +71,15 @@ formAround statements at = case calls of
   where
     calls = [c | c <- knownCalls statements, at `elem` values c, length (values c) > 1]
 
--- | The errors of a program. If all errors of one name are gone with two arguments of a call
--- exchanged, the call is the error. @recheck@ gives the errors of other statements.
+-- | The errors, with one error for a call whose two arguments are in the wrong order. Exchanging
+-- them has to remove an error, and may cause no other. @recheck@ gives the errors of other
+-- statements.
 inOrder :: ([Statement] -> [Error]) -> [Statement] -> [Error] -> [Error]
 inOrder recheck statements errors = case solutions of
   found : _ -> found
   [] -> errors
   where
-    decided = concat [at : map fst elsewhere | Mismatch at _ _ elsewhere@(_ : _) _ <- errors]
+    decided = contradicted errors
     solutions =
       [ Swapped (place c) (name c) [(a, second), (b, first)] (form c) (0, 1) : left
         | c <- take 4 (knownCalls statements),
@@ -89,6 +90,11 @@ inOrder recheck statements errors = case solutions of
           all (`elem` errors) left,
           [(_, first), (_, second)] <- [parameters c]
       ]
+
+-- | The regions of terms to which several uses give different types.
+contradicted :: [Error] -> [Region]
+contradicted errors =
+  concat [at : map fst elsewhere | Mismatch at _ _ elsewhere@(_ : _) _ <- errors]
 
 -- | A statement with the two arguments of the call at a region exchanged.
 exchangedAt :: Region -> Statement -> Statement
@@ -116,7 +122,7 @@ suspects statements errors
   | Set.null first = first
   | otherwise = go first
   where
-    decided = concat [at : map fst elsewhere | Mismatch at _ _ elsewhere@(_ : _) _ <- errors]
+    decided = contradicted errors
     first =
       Set.fromList
         [ n
@@ -151,7 +157,7 @@ isDoubtful statements names at =
     definesAny s =
       or [Set.member (value n) names | Just n <- [SyntaxWalk.definedName (value s)]]
 
--- | The errors of which those about numbers in place of the vectors of one call are one.
+-- | The errors, with one error for all numbers that a call has in place of vectors.
 oncePerCall :: [Statement] -> [Error] -> [Error]
 oncePerCall statements errors
   | null (concatMap number errors) = errors

@@ -20,15 +20,7 @@ import Data.Text (Text)
 import Data.Text qualified as Text
 import Report.Fix (Fix)
 import Report.Fix qualified as Fix
-import Report.Report
-  ( Label (..),
-    Report (..),
-    ReportCode,
-    ReportPlace (..),
-    Severity (..),
-    quote,
-    report,
-  )
+import Report.Report (Label (..), Report (..), at, quote)
 
 -- | The report of a space between the name of a function and its bracket, which is at @gap@.
 apartReport :: Region -> Text -> Region -> Report
@@ -124,6 +116,3 @@ vectorReport region name numbers form =
 -- | The count of arguments in words.
 arguments :: Int -> Text
 arguments n = if n == 1 then "1 argument" else Decimal.whole n <> " arguments"
-
-at :: Region -> ReportCode -> Text -> Report
-at region code = report Error code (InSource region)

@@ -35,15 +35,7 @@ import Data.Text (Text)
 import Data.Text qualified as Text
 import Report.Fix (Fix)
 import Report.Fix qualified as Fix
-import Report.Report
-  ( Label (..),
-    Report (..),
-    ReportCode,
-    ReportPlace (..),
-    Severity (..),
-    quote,
-    report,
-  )
+import Report.Report (Label (..), Report (..), at, quote)
 import Surface.Token (Numeral, Unit)
 
 -- | A mistake. The first field of every constructor but the last is the region that the report
@@ -501,9 +493,6 @@ traversalHint t = case t of
   Contour ->
     Just "A contour is traversed from its start to its end; for the reverse, write reversed(c)."
   _ -> Nothing
-
-at :: Region -> ReportCode -> Text -> Report
-at region code = report Error code (InSource region)
 
 -- | The labels of a report on types that do not fit. They are at other regions than the report, at
 -- which the use of a term decided one of these types. A pair contains such a region and the type.

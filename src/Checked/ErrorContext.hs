@@ -56,7 +56,7 @@ complete statements errors = case errors of
             fromMaybe "let" keyword `elem` ["let", "param", "contour", "table", "curve", "piece"]
         ]
 
--- | The errors of which the numbers of one point without its brackets are one.
+-- | The errors, with one error for all numbers of a point that lacks its brackets.
 oncePerPoint :: [Statement] -> [Error] -> [Error]
 oncePerPoint statements errors = case errors of
   [] -> []
@@ -81,8 +81,7 @@ oncePerPoint statements errors = case errors of
           let (others, left) = spanNumbers next more in (others <> [r'], left)
       _ -> ([], rest)
 
--- | The errors without those that report a sum of points again. The one that knows the whole
--- calculation is kept.
+-- | The errors, with one error for each sum of points: the one that knows the whole calculation.
 oncePerSum :: [Error] -> [Error]
 oncePerSum errors = [e | (k, e) <- zip [0 :: Int ..] errors, not (isRepeated k e)]
   where
@@ -96,8 +95,8 @@ oncePerSum errors = [e | (k, e) <- zip [0 :: Int ..] errors, not (isRepeated k e
           ]
       _ -> False
 
--- | The errors of which an unknown name in a contour, and the value after it that can be no
--- element, are one. The name of an element may mean a link; names elsewhere cannot.
+-- | The errors, with one error for an unknown name in a contour and the value after it that can be
+-- no element. The name of an element may mean a link; names elsewhere cannot.
 besideElements :: [Statement] -> [Error] -> [Error]
 besideElements statements errors = mapMaybe joined errors
   where
@@ -125,8 +124,8 @@ elementsIn statements =
       Located _ (Element _ x _ _) <- SyntaxWalk.itemsOf s
   ]
 
--- | The errors of which the name of a function and the arguments behind a space, which look like
--- two elements of a contour, are one.
+-- | The errors, with one error for the name of a function and its arguments after a space, which
+-- look like two elements of a contour.
 besideSpaces :: [Statement] -> [Error] -> [Error]
 besideSpaces statements errors = mapMaybe joined errors
   where
@@ -164,7 +163,7 @@ toolLetter statements e = case e of
     numbers =
       [region n | Located _ (Change n _) <- concatMap SyntaxWalk.statementsIn statements]
 
--- | The errors of which those that report the same unknown name are one.
+-- | The errors, with one error for each unknown name.
 oncePerName :: [Error] -> [Error]
 oncePerName errors = case errors of
   [] -> []

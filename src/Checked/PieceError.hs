@@ -20,15 +20,7 @@ import Checked.Type qualified as Type
 import Data.Text (Text)
 import Data.Text qualified as Text
 import Report.Fix qualified as Fix
-import Report.Report
-  ( Label (..),
-    Report (..),
-    ReportCode,
-    ReportPlace (..),
-    Severity (..),
-    quote,
-    report,
-  )
+import Report.Report (Label (..), Report (..), at, quote)
 
 -- | A mistake in a table or a piece. The first field of every constructor is the region that the
 -- report points at. The comment of a constructor names the other fields in order.
@@ -239,6 +231,3 @@ cipherForms digit = case digit of
 
 counted :: Int -> Text -> Text
 counted n thing = Decimal.whole n <> " " <> thing <> (if n == 1 then "" else "s")
-
-at :: Region -> ReportCode -> Text -> Report
-at region code = report Error code (InSource region)

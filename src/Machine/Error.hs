@@ -27,15 +27,7 @@ import Machine.DecodingError (DecodingFault (..))
 import Machine.DecodingError qualified as DecodingError
 import Report.Fix (Fix)
 import Report.Fix qualified as Fix
-import Report.Report
-  ( Label (..),
-    Report (..),
-    ReportCode,
-    ReportPlace (..),
-    Severity (..),
-    quote,
-    report,
-  )
+import Report.Report (Label (..), Report (..), at, quote)
 
 -- | A mistake in a description, with its region.
 data Error
@@ -526,6 +518,3 @@ nearestFixes region word known =
   [ Fix.exchange ("Write " <> w <> ".") region w
     | w <- take 1 (Name.lookAlike word known <> Name.nearest word known)
   ]
-
-at :: Region -> ReportCode -> Text -> Report
-at region code = report Error code (InSource region)

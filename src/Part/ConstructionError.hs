@@ -21,10 +21,10 @@ import Geometry.Carrier qualified as Carrier
 import Geometry.ElementCarrier (ElementCarrier)
 import Geometry.Vec (Point)
 import Geometry.Vec qualified as Vec
-import Part.ErrorText (Candidate (..), at, describe, described, listed)
+import Part.ErrorText (Candidate (..), describe, described, listed)
 import Report.Fix (Fix)
 import Report.Fix qualified as Fix
-import Report.Report (Report (..))
+import Report.Report (Report (..), at)
 
 -- | A fault of a construction. The first field of every constructor is the region of the function
 -- call. A 'Sought' is the kind of result that was wanted. The comment of a constructor names the

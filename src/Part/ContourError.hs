@@ -24,12 +24,12 @@ import Geometry.Carrier (Circle (..))
 import Geometry.ElementCarrier (ElementCarrier (..))
 import Geometry.Vec (Point)
 import Geometry.Vec qualified as Vec
-import Part.ErrorText (alternatively, at, describe)
+import Part.ErrorText (alternatively, describe)
 import Part.LinkError (FittingFillets (..), LinkFault (..), Neighbours (..))
 import Part.LinkError qualified as LinkError
 import Report.Fix (Fix)
 import Report.Fix qualified as Fix
-import Report.Report (Label (..), Report (..), quote)
+import Report.Report (Label (..), Report (..), at, quote)
 
 -- | A fault of a contour. The first field is the region that the report points at, unless the
 -- comment of the constructor says otherwise. The comment names the other fields in order.

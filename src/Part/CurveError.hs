@@ -22,9 +22,9 @@ import Data.Maybe (fromMaybe)
 import Data.Text (Text)
 import Geometry.Vec (Point)
 import Geometry.Vec qualified as Vec
-import Part.ErrorText (Candidate (APoint), at, below, downTo, listed)
+import Part.ErrorText (Candidate (APoint), below, downTo, listed)
 import Report.Fix qualified as Fix
-import Report.Report (Label (..), Report (..))
+import Report.Report (Label (..), Report (..), at)
 
 -- | A fault of a curve or a piece. The first field of every constructor is the region of the call,
 -- the cipher or the expression. The comment of a constructor names the other fields in order.

@@ -27,7 +27,7 @@ import Part.ContourError (ContourFault)
 import Part.ContourError qualified as ContourError
 import Part.CurveError (CurveMistake)
 import Part.CurveError qualified as CurveError
-import Part.ErrorText (alternatively, at)
+import Part.ErrorText (alternatively)
 import Part.Parameter (Domain, LimitedQuantity, Range (..), WholeNumber)
 import Part.Parameter qualified as Parameter
 import Part.Part (CutterKind (..))
@@ -35,7 +35,7 @@ import Part.PocketError (PocketMisfit)
 import Part.PocketError qualified as PocketError
 import Report.Fix (Fix)
 import Report.Fix qualified as Fix
-import Report.Report (Label (..), Report (..), quote)
+import Report.Report (Label (..), Report (..), at, quote)
 
 -- | A mistake of the program.
 data Error = Error

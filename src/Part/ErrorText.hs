@@ -1,8 +1,7 @@
 -- | The phrases that all reports on a part share. They name elements and the answers of
 -- constructions, and give limits rounded to three decimals.
 module Part.ErrorText
-  ( at,
-    alternatively,
+  ( alternatively,
     describe,
     Candidate (..),
     listed,
@@ -15,7 +14,6 @@ where
 
 import Base.Decimal qualified as Decimal
 import Base.Quantity (Mm (..))
-import Base.Region (Region)
 import Data.Text (Text)
 import Data.Text qualified as Text
 import Geometry.Carrier (Circle (..), Line (..))
@@ -25,12 +23,6 @@ import Geometry.Tolerance qualified as Tolerance
 import Geometry.Vec (Point)
 import Geometry.Vec qualified as Vec
 import Report.Fix (Fix)
-import Report.Report (Report (..), ReportCode, ReportPlace (..), report)
-import Report.Report qualified as Report
-
--- | An error report without any text except its title.
-at :: Region -> ReportCode -> Text -> Report
-at region code = report Report.Error code (InSource region)
 
 -- | The text of a hint that stands below fixes as another way. Without fixes it is the hint alone;
 -- the hint is a sentence that begins with a capital letter.

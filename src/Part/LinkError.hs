@@ -30,11 +30,11 @@ import Geometry.ElementCarrier (ElementCarrier (..))
 import Geometry.MeasuredPolyarc qualified as MeasuredPolyarc
 import Geometry.Vec (Point)
 import Geometry.Vec qualified as Vec
-import Part.ErrorText (alternatively, andMore, at, describe, downTo)
+import Part.ErrorText (alternatively, andMore, describe, downTo)
 import Part.Tolerance qualified as Tolerance
 import Report.Fix (Fix)
 import Report.Fix qualified as Fix
-import Report.Report (Label (..), Report (..), ReportCode)
+import Report.Report (Label (..), Report (..), ReportCode, at)
 
 -- | Two neighbouring elements of a contour, and the region of the link between them.
 data Neighbours = Neighbours

@@ -11,9 +11,8 @@ import Base.Quantity (Mm (..), times)
 import Base.Region (Region)
 import Geometry.Vec (Point)
 import Geometry.Vec qualified as Vec
-import Part.ErrorText (at)
 import Report.Fix qualified as Fix
-import Report.Report (Label (..), Report (..), quote)
+import Report.Report (Label (..), Report (..), at, quote)
 
 -- | A fault of a pocket. The first field of every constructor is the region of the wrong expression
 -- in the pocket statement. The comment of a constructor names the other fields in order.

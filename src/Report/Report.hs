@@ -10,6 +10,7 @@ module Report.Report
     ReportPlace (..),
     Label (..),
     report,
+    at,
     withControlStop,
     remedies,
     force,
@@ -94,6 +95,10 @@ report severity code place title =
       hints = [],
       fixes = []
     }
+
+-- | Error at a region of the program, with its code and its title; all other fields are empty.
+at :: Region -> ReportCode -> Text -> Report
+at region code = report Error code (InSource region)
 
 -- | The report of a mistake on an input sheet: its message also names the control stop.
 withControlStop :: Report -> Report

@@ -19,7 +19,7 @@ where
 import Base.Decimal qualified as Decimal
 import Base.Region (Region (..))
 import Data.Text (Text)
-import Report.Report (Report (..), ReportCode, ReportPlace (..), Severity (..), report)
+import Report.Report (Report (..), ReportPlace (..), Severity (..), at, report)
 import Sheet.Sheet (maxArrays)
 
 -- | The reason why a part cannot become a sheet. The region is the part of the program's text that
@@ -186,10 +186,6 @@ toReport unfit = case unfit of
       { message = ["The Minsk-22 system stopped here with 10746."],
         hints = ["Make two programs of it."]
       }
-
--- | A report on a region, with its code and its title.
-at :: Region -> ReportCode -> Text -> Report
-at region code = report Error code (InSource region)
 
 featureText :: Feature -> Text
 featureText feature = case feature of

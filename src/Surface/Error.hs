@@ -24,15 +24,7 @@ import Data.Text (Text)
 import Data.Text qualified as Text
 import Report.Fix (Fix)
 import Report.Fix qualified as Fix
-import Report.Report
-  ( Label (..),
-    Report (..),
-    ReportCode,
-    ReportPlace (..),
-    Severity (..),
-    quote,
-    report,
-  )
+import Report.Report (Label (..), Report (..), ReportPlace (..), Severity (..), at, quote, report)
 import Report.Report qualified as Report
 import Surface.CharacterFix qualified as CharacterFix
 import Surface.CharacterReport (strayHint, strayTitle)
@@ -575,6 +567,3 @@ isBroken token = case token of
   Number _ _ -> False
   Text _ -> False
   Symbol _ -> False
-
-at :: Region -> ReportCode -> Text -> Report
-at region code = report Error code (InSource region)

@@ -20,10 +20,10 @@ import Data.Text (Text)
 import Geometry.Vec (Point)
 import Geometry.Vec qualified as Vec
 import Part.Part (Element (..))
-import Report.Report (Label (..), Report (..))
+import Report.Report (Label (..), Report (..), at)
 import Toolpath.ErrorFix qualified as ErrorFix
 import Toolpath.Tolerance qualified as Tolerance
-import Toolpath.WarningReport (at, inDegrees, secondLabel, shape)
+import Toolpath.WarningReport (inDegrees, secondLabel, shape)
 
 -- | Requests that the input of a control with cutter compensation cannot express.
 data Unsupported

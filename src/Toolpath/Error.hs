@@ -31,7 +31,7 @@ import Geometry.Vec qualified as Vec
 import Part.ErrorText (andMore)
 import Part.Part (Contour (contourName), Element (..), Ends (..), MillingPlaces, Side (..))
 import Report.Fix qualified as Fix
-import Report.Report (Label (..), Report (..))
+import Report.Report (Label (..), Report (..), at)
 import Toolpath.CompensationReport (Unsupported (..))
 import Toolpath.CompensationReport qualified as CompensationReport
 import Toolpath.ErrorFix qualified as ErrorFix

@@ -35,12 +35,12 @@ import Part.Part
   )
 import Part.Part qualified as Part
 import Report.Fix qualified as Fix
-import Report.Report (Label (Label), Report (fixes, hints, others))
+import Report.Report (Label (Label), Report (fixes, hints, others), at)
 import Toolpath.Lead (Which (..))
 import Toolpath.Lead qualified as Lead
 import Toolpath.Toolpath (Move)
 import Toolpath.Toolpath qualified as Toolpath
-import Toolpath.WarningReport (at, shape)
+import Toolpath.WarningReport (shape)
 
 -- | The cause of intrusions of linking moves.
 data LinkingMoveError

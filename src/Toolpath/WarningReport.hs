@@ -13,7 +13,6 @@ module Toolpath.WarningReport
     workVerb,
     shape,
     secondLabel,
-    at,
     inDegrees,
   )
 where
@@ -30,7 +29,7 @@ import Geometry.Vec (Point)
 import Geometry.Vec qualified as Vec
 import Part.Part (Element (..), MillingPlaces, Work (..))
 import Report.Fix qualified as Fix
-import Report.Report (Label (..), Report (..), ReportCode, ReportPlace (..), report)
+import Report.Report (Label (..), Report (..), ReportPlace (..), report)
 import Report.Report qualified as Report
 
 -- | A cutter at work: the kind of work, the cutter's radius, the allowance that it leaves, and the
@@ -227,10 +226,6 @@ shape element = case segment element of
       <> Decimal.mm (Segment.radius centre start)
       <> " about "
       <> Vec.toText 3 centre
-
--- | An error report with a code and a title, at a region of the program.
-at :: Region -> ReportCode -> Text -> Report
-at region code = report Report.Error code (InSource region)
 
 -- | The text, in degrees, for an angle in radians.
 inDegrees :: Double -> Text

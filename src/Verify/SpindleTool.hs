@@ -42,9 +42,9 @@ toolInFrame tools n = maybe (Mm 0) Mm (tools Vector.!? (n - 1))
 
 -- | Radius of the cutter in each frame of a tape, by the number of the frame from 1. The first
 -- frame with commands corresponds to the first such planned frame, the second to the second, and so
--- on. From one such frame to the next, the cutter stays the same. Where the program plans no motion,
--- it is the cutter of the motions before. Nothing if the cutter in the planned frames changes
--- elsewhere.
+-- on. From one such frame to the next, the cutter stays the same. Where the program plans no
+-- motion, it is the cutter of the motions before. Nothing if the cutter in the planned frames
+-- changes elsewhere.
 toolsByCommands :: FrameProgram -> [Frame] -> Maybe (Int -> Mm)
 toolsByCommands program frames = do
   radii <- traverse (onlyRadius . filter (Frame.isMoving . Frame.frame)) plannedSections

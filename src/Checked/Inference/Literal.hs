@@ -37,7 +37,7 @@ plainFactor op (l, lt) (r, rt) = do
       Type.Quantity d -> Dimension.isKnown d && d /= Dimension.none
       _ -> False
 
--- | Does an expression consist only of literals without units?
+-- | True of an expression that consists only of literals without units.
 hasNoUnit :: Surface.Expr -> Bool
 hasNoUnit (Located _ e) = case e of
   Surface.Literal _ Nothing -> True
@@ -46,7 +46,7 @@ hasNoUnit (Located _ e) = case e of
   _ -> False
 
 -- | Reports a product of numbers without units and pi that is used as an angle: it is meant in
--- radians, but would be taken in degrees. The result tells if it is one.
+-- radians, but would be taken in degrees. The result is true if it was reported.
 radians :: Type -> Surface.Expr -> Infer Bool
 radians wanted e = do
   wanted' <- Inference.resolved wanted
