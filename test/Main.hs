@@ -10,7 +10,14 @@ import System.Exit (die)
 import System.IO (BufferMode (LineBuffering), hSetBuffering, stdout)
 import System.Timeout (timeout)
 import Test.Hspec (around_, expectationFailure, parallel)
-import Test.Hspec.Runner (Config (..), Summary (..), defaultConfig, evaluateSummary, readConfig, runSpec)
+import Test.Hspec.Runner
+  ( Config (..),
+    Summary (..),
+    defaultConfig,
+    evaluateSummary,
+    readConfig,
+    runSpec,
+  )
 import Test.QuickCheck (choose, generate)
 
 main :: IO ()

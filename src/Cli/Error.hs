@@ -14,6 +14,10 @@ where
 import Base.Decimal qualified as Decimal
 import Data.Text (Text)
 import Data.Text qualified as Text
+import Machine.BuiltIn qualified as BuiltIn
+import Machine.Controller (Controller (..))
+import Machine.Machine (MachineName (..))
+import Machine.Machine qualified as Machine
 import Pulse.FramePath (AskedFeed, feedText, roundedDown)
 import Report.Report (Report (..), ReportPlace (..), report)
 import Report.Report qualified as Report
@@ -138,7 +142,10 @@ toReport err = case err of
   NoPulses machine ->
     (wrong "E0815" InFile ("the model of the controller of " <> machine <> " makes no pulses"))
       { hints =
-          ["Leave --pulses and --speed out: the model knows only the times of the frames."]
+          [ "Leave --pulses and --speed out, or take a machine whose pulses are known: "
+              <> Text.intercalate ", " pulseMachines
+              <> "."
+          ]
       }
   NoSuchOverride n positions ->
     ( wrong
@@ -227,3 +234,13 @@ warningReport :: Warning -> Report
 warningReport warning = case warning of
   Unproven ->
     report Report.Warning "W0801" InFile "the tape is written without a proof (--no-verify)"
+
+-- | The names of the built-in machines whose controllers make pulses.
+pulseMachines :: [Text]
+pulseMachines = [name | m <- BuiltIn.machines, makesPulses m, let MachineName name = Machine.name m]
+  where
+    makesPulses m = case Machine.controller m of
+      Just (Stepping _) -> True
+      Just (Integrating _) -> True
+      Just (Planning _) -> False
+      Nothing -> False

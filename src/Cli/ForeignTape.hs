@@ -55,16 +55,19 @@ damaged machine name given damage
       _ -> r
 
 -- | The source and the report of damage to a tape that should be the one of a program. The report
--- also has the first difference from the program's own tape.
+-- also has the first difference from the program's own tape, unless the tape is one of another
+-- machine.
 otherDamaged :: Compiled -> TapeFile -> Damage -> (Source, Report)
 otherDamaged compiled TapeFile {fileName, rows} damage =
-  (source, withDifference compiled 0 rows (if isCutOff then cutOff report else report))
+  (source, if null (readersOf machine rows) then withDifference compiled 0 rows told else report)
   where
+    machine = Compile.machine compiled
+    told = if isCutOff then cutOff report else report
     Tape given = rows
     Tape own = tape (Compile.punched compiled)
     isCutOff = given `ByteString.isPrefixOf` own
     cutOff r = r {hints = ["Copy the file again, or punch the tape anew with partc compile."]}
-    (source, report) = damaged (Compile.machine compiled) fileName rows damage
+    (source, report) = damaged machine fileName rows damage
 
 -- | The source and the reports of the findings about a tape. The argument @source@ is the
 -- program's source; the result contains the text of the tape as well, if it is a text file.
@@ -112,9 +115,9 @@ disproven compiled TapeFile {fileName, rows = given} frames source proof
 -- | The report on a tape that the given machine cannot read. It says for which built-in machines
 -- the tape is, if any of them can read it.
 withReaders :: Machine -> Tape -> Report -> Report
-withReaders machine given report = case readers of
+withReaders machine given report = case readersOf machine given of
   [] -> report
-  first : _ ->
+  readers@(first : _) ->
     report
       { title =
           "this is a tape of "
@@ -122,15 +125,18 @@ withReaders machine given report = case readers of
             <> ", and "
             <> own
             <> " cannot read it",
-        message = ["As a tape of " <> own <> ": " <> title report <> "."] <> message report,
+        message = [],
         hints = ["Write -t " <> first <> "."]
       }
   where
     MachineName own = Machine.name machine
-    readers =
-      [ name
-        | m <- BuiltIn.machines,
-          let MachineName name = Machine.name m,
-          Machine.name m /= Machine.name machine,
-          Right (_ : _) <- [Tape.read m (Pulses3 0 0 0) given]
-      ]
+
+-- | The names of the built-in machines, other than the given one, that can read the tape.
+readersOf :: Machine -> Tape -> [Text]
+readersOf machine given =
+  [ name
+    | m <- BuiltIn.machines,
+      let MachineName name = Machine.name m,
+      Machine.name m /= Machine.name machine,
+      Right (_ : _) <- [Tape.read m (Pulses3 0 0 0) given]
+  ]

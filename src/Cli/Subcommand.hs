@@ -57,6 +57,7 @@ import Machine.Machine qualified as Machine
 import Project.Error qualified as Project
 import Project.Job (Job (verification), Verification (..))
 import Project.Job qualified as Job
+import Project.MachineDescription (DescriptionText (text))
 import Project.Target qualified as Target
 import Query.Snapshot qualified as Snapshot
 import Report.Explanation qualified as Explanation
@@ -341,10 +342,11 @@ machines reporter wanted asText = case wanted of
   Just machineName -> do
     descriptions <- descriptionsFor [machineName] []
     case (Target.machineNamed descriptions machineName, lookup machineName descriptions) of
-      (Left (Project.DescriptionWrong _ description text reports), _) ->
-        Failed <$ Output.showReports reporter description (Region.fromText description text) reports
+      (Left (Project.DescriptionWrong _ file described reports), _) ->
+        Failed
+          <$ Output.showReports reporter file (Region.fromText file (text described)) reports
       (Left e, _) -> failWithReport reporter "" (Project.argumentReport e)
-      (Right _, Just (Right text)) | asText -> printResult reporter text
+      (Right _, Just (Right described)) | asText -> printResult reporter (text described)
       (Right machine, _)
         | asText ->
           maybe (pure Failed) (printResult reporter) (BuiltIn.text (Machine.name machine))

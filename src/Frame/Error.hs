@@ -192,7 +192,11 @@ toReport machine err = case err of
               highest > 0,
               let text = "aux " <> Decimal.whole highest
           ],
-        hints = ["Leave it out, or compile for another machine." | highest == 0]
+        hints =
+          [ maybe "Leave it out, or compile for another machine." (\c -> "Write " <> c <> ".") meant
+            | highest == 0,
+              let meant = if kind == AuxiliaryCommand then commandOf n else Nothing
+          ]
       }
   TooManyContours region limit ->
     ( report
@@ -489,3 +493,16 @@ machineName machine = let MachineName name = Machine.name machine in name
 -- | Feed with its unit, for a report.
 feed :: Feed -> Text
 feed (Feed f) = Decimal.short 2 f <> " mm/min"
+
+-- | The statement of the language for the command that G-code writes as M and this number (ISO
+-- 6983).
+commandOf :: Int -> Maybe Text
+commandOf n = case n of
+  3 -> Just "spindle cw and a speed: spindle cw 1000 rpm"
+  4 -> Just "spindle ccw and a speed: spindle ccw 1000 rpm"
+  5 -> Just "spindle off"
+  6 -> Just "change, a number and a cutter: change 2 mill(diameter 8 mm)"
+  7 -> Just "coolant on"
+  8 -> Just "coolant on"
+  9 -> Just "coolant off"
+  _ -> Nothing

@@ -19,6 +19,7 @@ module Geometry.Carrier
     Sense (..),
     senseSign,
     senseOf,
+    oppositeSense,
     sweepInSense,
 
     -- * Sides
@@ -83,6 +84,11 @@ senseSign t = case t of
 -- | The sense of an arc by its sweep. A sweep of 0 counts as clockwise.
 senseOf :: Rad -> Sense
 senseOf (Rad sweep) = if sweep > 0 then CounterClockwise else Clockwise
+
+oppositeSense :: Sense -> Sense
+oppositeSense t = case t of
+  Clockwise -> CounterClockwise
+  CounterClockwise -> Clockwise
 
 -- | The sweep of an arc in a given sense. @short@ is the angle, in [−π, π], from the radius at the
 -- arc's start to the radius at its end. The sweep is that angle, or differs from it by a full turn.

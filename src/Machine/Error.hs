@@ -459,9 +459,9 @@ tableReport region fault = case fault of
         )
     )
       { hints =
-          [ "Give the word of the feed more digits, or end the codes at "
+          [ "End the codes at "
               <> Decimal.whole largest
-              <> "."
+              <> ". Or give the word of the feed more digits, and holes for each of them."
           ]
       }
   NoSuchCode n ->

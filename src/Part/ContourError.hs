@@ -15,7 +15,7 @@ where
 import Base.Decimal qualified as Decimal
 import Base.Name (Name (..))
 import Base.Quantity (Mm (..))
-import Base.Region (Located, Region (..))
+import Base.Region (Located (..), Region (..))
 import Data.List (nub)
 import Data.List.NonEmpty (NonEmpty)
 import Data.List.NonEmpty qualified as NonEmpty
@@ -67,7 +67,7 @@ data ContourFault
     -- The radius is 'Nothing' if no link is a fillet or no radius fits
     Overrun Region ElementCarrier Mm [Region] (Maybe FittingFillets)
   | -- | a contour that meets itself: the region of its name, the regions of the two elements that
-    -- meet, their common point, and true if the contour has fillets. If it does not meet itself
+    -- meet, their common point, and true if one of the two has a fillet. If it does not meet itself
     -- when fillets get the other sense, the last field has these fillets. The report points at the
     -- first of the two elements
     CrossesItself Region Region Region Point Bool (Maybe FittingFillets)
@@ -76,6 +76,12 @@ data ContourFault
     ClosedMeant Region ContourFault
   | -- | a fault that ends when two neighbouring items of the contour change places
     OutOfOrder ContourFault Region Region
+  | -- | a fault that ends when a line or a circle is traversed in the opposite direction: the
+    -- fault, the element, and the region of the sense of a circle
+    AgainstTravel ContourFault (Located ElementCarrier) (Maybe Region)
+  | -- | a fault that ends when two links that meet near points exchange these points: the fault,
+    -- and the region of each link with its point
+    NearExchanged ContourFault (Region, Point) (Region, Point)
   | -- | lines that do not touch the circles that they join, while tangents join these circles: the
     -- fault of the first line, the region of the link before each line and the item of the line
     TangentMeant ContourFault (NonEmpty (Region, Region))
@@ -165,6 +171,39 @@ toReport fault = case fault of
           }
     where
       exchange = "Exchange the two elements, if their order is wrong."
+  AgainstTravel inner (Located region carrier) word ->
+    let r = toReport inner
+     in ( at
+            region
+            (code r)
+            ("the contour passes " <> describe carrier <> " in the opposite direction")
+        )
+          { controlStop = controlStop r,
+            fixes = case (carrier, word) of
+              (OnCircle sense c, Just w) -> [LinkError.senseFix (w, sense, c)]
+              _ ->
+                [ Fix.proposed
+                    (Fix.enclosure "Write reversed(…) around it." "reversed(" region ")")
+                ],
+            hints = ["Or exchange its two points where it is made." | OnLine _ <- [carrier]]
+          }
+  NearExchanged inner (first, p) (second, q) ->
+    let r = toReport inner
+     in ( at
+            first
+            (code r)
+            ( "the near points "
+                <> Vec.toText 4 p
+                <> " and "
+                <> Vec.toText 4 q
+                <> " have to change places"
+            )
+        )
+          { controlStop = controlStop r,
+            others = [Label second "with this one"],
+            message = ["As they stand, " <> title r <> "."],
+            fixes = [Fix.proposed (Fix.swap "Exchange the two points." first second)]
+          }
   TangentMeant inner lines' ->
     let title
           | length lines' == 1 =

@@ -13,10 +13,11 @@ module Part.ErrorText
 where
 
 import Base.Decimal qualified as Decimal
-import Base.Quantity (Mm (..))
+import Base.Quantity (Mm (..), degrees)
 import Data.Text (Text)
 import Data.Text qualified as Text
 import Geometry.Carrier (Circle (..), Line (..))
+import Geometry.Carrier qualified as Carrier
 import Geometry.ElementCarrier (ElementCarrier (..))
 import Geometry.MeasuredPolyarc qualified as MeasuredPolyarc
 import Geometry.Tolerance qualified as Tolerance
@@ -43,8 +44,22 @@ describe carrier = case carrier of
       <> Vec.toText 4 (MeasuredPolyarc.end c)
   AtPoint p -> "the point " <> Vec.toText 4 p
 
+-- | The description of a line. A line of the length 1 is made by a function that fixes no ends; it
+-- is named by a point and its direction.
 describeLine :: Line -> Text
-describeLine (Line p q) = "the line from " <> Vec.toText 4 p <> " to " <> Vec.toText 4 q
+describeLine l@(Line p q)
+  | abs (length' - 1) > noise = "the line from " <> Vec.toText 4 p <> " to " <> Vec.toText 4 q
+  | abs (Vec.y p - Vec.y q) < noise = "the line y = " <> Decimal.short 4 (Vec.y p)
+  | abs (Vec.x p - Vec.x q) < noise = "the line x = " <> Decimal.short 4 (Vec.x p)
+  | otherwise =
+    "the line through "
+      <> Vec.toText 4 p
+      <> " at "
+      <> Decimal.short 4 (degrees (Vec.angle (Carrier.direction l)))
+      <> " deg"
+  where
+    Mm length' = Vec.distance p q
+    Mm noise = Tolerance.coincident
 
 describeCircle :: Circle -> Text
 describeCircle (Circle c r) =

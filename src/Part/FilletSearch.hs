@@ -14,6 +14,7 @@ import Data.List.NonEmpty (NonEmpty)
 import Data.List.NonEmpty qualified as NonEmpty
 import Data.Maybe (listToMaybe, mapMaybe)
 import Geometry.Carrier (Sense (..))
+import Geometry.Carrier qualified as Carrier
 import Part.Link (Link (..))
 import Part.LinkElement (LinkedElement (..))
 import Part.LinkError (FittingFillets (FittingFillets))
@@ -32,14 +33,16 @@ turned fits linked isMeant =
   where
     all' = filletsOf linked
     given = take mostTurned (filter (\(at, _, _) -> isMeant at) all')
-    alone (at, sense, r) = FittingFillets [(at, other sense, r)]
+    alone (at, sense, r) = FittingFillets [(at, Carrier.oppositeSense sense, r)]
     together (_, sense, r) =
-      FittingFillets (nubOrd [(at, other sense, r) | (at, s, r') <- all', s == sense, r' == r])
+      FittingFillets (nubOrd [(at, turnedSense, r) | (at, s, r') <- all', s == sense, r' == r])
+      where
+        turnedSense = Carrier.oppositeSense sense
     isEnough (FittingFillets changed) = fits (fmap (turn [at | (at, _, _) <- changed]) linked)
     turn chosen w = case link w of
-      Just (at, Fillet sense r) | at `elem` chosen -> w {link = Just (at, Fillet (other sense) r)}
+      Just (at, Fillet sense r)
+        | at `elem` chosen -> w {link = Just (at, Fillet (Carrier.oppositeSense sense) r)}
       _ -> w
-    other sense = case sense of Clockwise -> CounterClockwise; CounterClockwise -> Clockwise
 
 -- | A fillet that, in place of the link in the given region, leaves the contour without a fault:
 -- the largest of a few round radii that fits.

@@ -11,6 +11,8 @@ module Part.LinkError
     largestFix,
     turnedFix,
     turnable,
+    senseRegion,
+    senseFix,
   )
 where
 
@@ -242,23 +244,48 @@ noFilletReport j sense r (largest, turned) =
       )
   )
     { controlStop = Just "17535",
-      message = parallelText j,
-      fixes =
-        [largestFix fillets | Just fillets <- [largest]]
-          <> [turnedFix fillets | Just fillets <- [turned]],
-      hints =
-        [ "A radius without a sign makes a clockwise arc, one with a minus a counter-clockwise \
-          \one; check the sign, the radius, and the senses of the neighbours."
-        ]
+      message = why,
+      fixes = offered,
+      hints = [if null why then hint else alternatively offered hint]
     }
+  where
+    offered =
+      [largestFix fillets | Just fillets <- [largest]]
+        <> [turnedFix fillets | Just fillets <- [turned]]
+    (why, hint) = case (value (before j), value (after j)) of
+      (OnLine l, OnLine m)
+        | Intersection.Apart gap <- Intersection.lines l m ->
+          ( [ "The lines are parallel, "
+                <> Decimal.mm gap
+                <> " apart: there is no corner to round."
+            ],
+            "Write the element that is missing between them."
+          )
+      (OnCircle _ c, OnCircle _ d)
+        | Just words' <- nested c d -> (words', "Correct the centre or the radius of one of them.")
+      _ ->
+        ( [],
+          "A radius without a sign makes a clockwise arc, one with a minus a counter-clockwise \
+          \one; check the sign, the radius, and the senses of the neighbours."
+        )
 
--- | The sentence that two lines are parallel. Empty for other neighbours.
-parallelText :: Neighbours -> [Text]
-parallelText j = case (value (before j), value (after j)) of
-  (OnLine l, OnLine m)
-    | Intersection.Apart gap <- Intersection.lines l m ->
-      ["The lines are parallel, " <> Decimal.mm gap <> " apart."]
-  _ -> []
+-- | The sentence that one circle lies inside the other. 'Nothing' for other circles.
+nested :: Circle -> Circle -> Maybe [Text]
+nested c d
+  | Intersection.Apart _ <- Intersection.circles c d,
+    apart < max (radius c) (radius d) =
+    Just
+      [ "One circle lies inside the other: their centres are "
+          <> Decimal.mm apart
+          <> " apart, and their radii are "
+          <> Decimal.mm (radius c)
+          <> " and "
+          <> Decimal.mm (radius d)
+          <> "."
+      ]
+  | otherwise = Nothing
+  where
+    apart = Vec.distance (centre c) (centre d)
 
 -- | The report of one cause that several links of a contour have in common: a tangent beside
 -- elements that are no circles, or a fillet beside a point. It points at the first of these links.
@@ -474,7 +501,7 @@ senseFix (word, sense, c) =
         other
     )
   where
-    other = senseText (case sense of Clockwise -> CounterClockwise; CounterClockwise -> Clockwise)
+    other = senseText (Carrier.oppositeSense sense)
 
 senseText :: Sense -> Text
 senseText sense = case sense of

@@ -1,5 +1,6 @@
 -- | Search for changes of a contour with which it has no fault: neighbouring items in exchanged
--- order, and tangents in place of lines between circles. Reports offer them as fixes.
+-- order, an element in the opposite direction, exchanged near points, and tangents in place of
+-- lines between circles. Reports offer them as fixes.
 module Part.LinkSearch
   ( explained,
   )
@@ -7,11 +8,14 @@ where
 
 import Base.Region (Located (..), Region)
 import Data.Containers.ListUtils (nubOrd)
+import Data.List (tails)
 import Data.List.NonEmpty (NonEmpty (..))
 import Data.List.NonEmpty qualified as NonEmpty
 import Data.Maybe (listToMaybe, mapMaybe)
-import Geometry.Carrier (Sense (..))
+import Geometry.Carrier (Line (..))
+import Geometry.Carrier qualified as Carrier
 import Geometry.ElementCarrier (ElementCarrier (..))
+import Geometry.Vec (Point)
 import Geometry.Vec qualified as Vec
 import Part.ContourError (ContourFault (..), LinkFault (..))
 import Part.ContourError qualified as ContourError
@@ -20,8 +24,8 @@ import Part.Link (Link (..))
 import Part.LinkElement (LinkedElement (..))
 import Part.LinkError qualified as LinkError
 
--- | The faults of a contour with changes that mend it. If another order of two items mends it, or
--- tangents in place of lines, the result is one fault. @fits@ is true of elements without a fault.
+-- | The faults of a contour with changes that mend it. If one of the changes that this module
+-- searches for mends it, the result is one fault. @fits@ is true of elements without a fault.
 -- @isMeantClosed@ is the region of the word @open@ of a contour that has no fault if it is closed.
 explained ::
   (NonEmpty LinkedElement -> Bool) ->
@@ -37,11 +41,16 @@ explained fits isMeantClosed linked faults
   | any isMended mended = mended
   | Just lines' <- tangents fits (`elem` untouched) linked =
     TangentMeant (NonEmpty.head mended) lines' :| []
-  | Just (a, b) <- exchanged fits (concatMap unordered (NonEmpty.toList faults)) linked =
+  | Just (a, b) <- exchangedPoints fits linked =
+    NearExchanged (NonEmpty.head mended) a b :| []
+  | Just (element, word) <- reversed fits suspected linked =
+    AgainstTravel (NonEmpty.head mended) element word :| []
+  | Just (a, b) <- exchanged fits suspected linked =
     OutOfOrder (NonEmpty.head mended) a b :| []
   | otherwise = mended
   where
     mended = fmap (withLargest fits linked) faults
+    suspected = concatMap unordered (NonEmpty.toList faults)
     untouched = concat [neighbours j | NotLinked j cause <- NonEmpty.toList faults, isApart cause]
     isApart cause = case cause of
       NotSmooth _ _ -> True
@@ -51,6 +60,7 @@ explained fits isMeantClosed linked faults
     isMended f = case f of
       NotLinked _ (NoFillet _ _ (Just _) _) -> True
       NotLinked _ (NoFillet _ _ _ (Just _)) -> True
+      NotLinked _ (TurnsBack (_ : _)) -> True
       Overrun _ _ _ _ (Just _) -> True
       CrossesItself _ _ _ _ _ (Just _) -> True
       _ -> False
@@ -97,12 +107,82 @@ withLargest fits linked fault = case fault of
     turnedAt at w = case carrier w of
       OnCircle sense c
         | elementRegion w == at ->
-          w {carrier = OnCircle (case sense of Clockwise -> CounterClockwise; _ -> Clockwise) c}
+          w {carrier = OnCircle (Carrier.oppositeSense sense) c}
       _ -> w
     leavingOutMends j =
       maybe False fits $
         NonEmpty.nonEmpty
           (NonEmpty.filter ((/= snd (ContourError.items j)) . itemRegion) linked)
+
+-- | A line or circle in whose opposite direction the contour has no fault, and for a circle the
+-- region of its sense. @fits@ is true of elements without a fault. The element has to be
+-- @suspected@, or beside an element or a link that is. Each item of the contour has to give one
+-- element.
+reversed ::
+  (NonEmpty LinkedElement -> Bool) ->
+  [Region] ->
+  NonEmpty LinkedElement ->
+  Maybe (Located ElementCarrier, Maybe Region)
+reversed fits suspected linked
+  | length (nubOrd (map itemRegion elements)) < length elements = Nothing
+  | otherwise =
+    listToMaybe
+      [ (Located at (carrier w), word)
+        | at <- nubOrd (suspected <> map elementRegion beside),
+          w <- filter ((== at) . elementRegion) elements,
+          Just (turnedElement, word) <- [opposite w],
+          fits (fmap (\v -> if elementRegion v == at then turnedElement else v) linked)
+      ]
+  where
+    elements = NonEmpty.toList linked
+    beside =
+      concat
+        [ [a, b]
+          | (a, b) <- zip elements (drop 1 (cycle elements)),
+            any (`elem` suspected) ([elementRegion a, elementRegion b] <> linkRegion a)
+        ]
+    linkRegion w = [at | Just (at, _) <- [link w]]
+    opposite w = case carrier w of
+      OnLine (Line p q) ->
+        Just
+          ( w
+              { carrier = OnLine (Line q p),
+                ownStart = ownEnd w,
+                ownEnd = ownStart w
+              },
+            Nothing
+          )
+      OnCircle sense c -> do
+        word <- LinkError.senseRegion (itemRegion w) (Located (elementRegion w) (carrier w))
+        Just (w {carrier = OnCircle (Carrier.oppositeSense sense) c}, Just word)
+      OnCurve _ -> Nothing
+      AtPoint _ -> Nothing
+
+-- | Two links that meet near points and leave the contour without a fault if their points are
+-- exchanged: the regions of these links and their points. @fits@ is true of elements without a
+-- fault. At most 'mostNearPoints' links are looked at.
+exchangedPoints ::
+  (NonEmpty LinkedElement -> Bool) ->
+  NonEmpty LinkedElement ->
+  Maybe ((Region, Point), (Region, Point))
+exchangedPoints fits linked =
+  listToMaybe
+    [ (a, b)
+      | a : others <- tails (take mostNearPoints given),
+        b <- others,
+        fits (fmap (exchange a b) linked)
+    ]
+  where
+    given = [(at, p) | LinkedElement {link = Just (at, Meet (Just p))} <- NonEmpty.toList linked]
+    exchange (at, p) (at', q) w = case link w of
+      Just (here, Meet (Just _))
+        | here == at -> w {link = Just (here, Meet (Just q))}
+        | here == at' -> w {link = Just (here, Meet (Just p))}
+      _ -> w
+
+-- | The largest number of links whose near points are exchanged with one another.
+mostNearPoints :: Int
+mostNearPoints = 8
 
 -- | Two neighbouring items in whose exchanged order the contour has no fault. @fits@ is true of
 -- elements without a fault. One of the two has to be among the @suspected@ elements. Each item of

@@ -137,10 +137,14 @@ attempt region (Located closure ends) linked = do
       originOf i = origin (contour NonEmpty.!! i)
   case SelfIntersection.firstSelfIntersectionBy segment ends contour of
     Just (i, j, p) ->
-      Left (CrossesItself region (originOf i) (originOf j) p (any hasFillet linked) Nothing)
+      let beside = [hasFillet a || hasFillet b | (a, b) <- pairs, isMeeting b]
+          isMeeting w = elementRegion w `elem` [originOf i, originOf j]
+       in Left (CrossesItself region (originOf i) (originOf j) p (or beside) Nothing)
     Nothing -> Right contour
   where
     isLong e = Segment.length (segment e) > Tolerance.coincident
+    -- Each element with the one before it, which has the link that leads to it.
+    pairs = case linked of first :| rest -> zip (NonEmpty.last linked : first : rest) (first : rest)
     hasFillet w = case link w of
       Just (_, Fillet _ _) -> True
       _ -> False

@@ -242,7 +242,7 @@ pocketing context at e step settings = do
       tooWide = [StepTooWide (region step) stepover d | Just d <- [diameter], stepover > d]
       contours' = map PocketCheck.contour islands
       pocket w = Pocketing {wall = w, islands = contours', stepover}
-  case PocketCheck.misfits outline' islands <> tooWide of
+  case PocketCheck.misfits diameter outline' islands <> tooWide of
     [] -> pure (pocket <$> wall)
     found -> Evaluation.mistakes [Error (InPocket m) [] [] | m <- found]
   where

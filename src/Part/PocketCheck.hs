@@ -31,10 +31,11 @@ import Part.PocketError (PocketMisfit (..))
 -- | A contour, and the region of its name in the pocket statement.
 data Named = Named {mention :: Region, contour :: Contour}
 
--- | The faults of a pocket's contours. If some of them are open, only these are reported. Otherwise
+-- | The faults of a pocket's contours. @cutter@ is the diameter of the cutter, if it is known; the
+-- reports name it. If some of the contours are open, only these are reported. Otherwise
 -- the contours are compared with one another.
-misfits :: Named -> [Named] -> [PocketMisfit]
-misfits outline islands = case filter isOpen numbered of
+misfits :: Maybe Mm -> Named -> [Named] -> [PocketMisfit]
+misfits cutter outline islands = case filter isOpen numbered of
   [] -> map meets meetings <> mapMaybe (misplaced outline isInOutline boxes) apart
   open -> [OpenContour (mention n) (nameOf n) (definition n) | (_, n) <- open]
   where
@@ -46,7 +47,7 @@ misfits outline islands = case filter isOpen numbered of
     meets (i, j, p) =
       let (a, b) = (named j, named i)
           places = (definition a, definition b)
-       in Meets (mention a) (nameOf a) (nameOf b) places (i == 0) p
+       in Meets (mention a) (nameOf a) (nameOf b) places (i == 0) p cutter
     named i = (outline : islands) !! i
     -- An island that meets another contour is already reported as meeting it.
     apart = [(k, n) | (k, n) <- drop 1 numbered, k `notElem` met]

@@ -9,6 +9,7 @@ import Base.Decimal qualified as Decimal
 import Base.Name (Name (..))
 import Base.Quantity (Mm (..), times)
 import Base.Region (Region)
+import Data.Text (Text)
 import Geometry.Vec (Point)
 import Geometry.Vec qualified as Vec
 import Report.Fix qualified as Fix
@@ -24,9 +25,9 @@ data PocketMisfit
   | -- | an island that lies inside another island: the names of the inner and of the outer island
     InIsland Region Name Name
   | -- | an island that crosses or touches another contour: the names of the island and of that
-    -- contour, the regions of their definitions, true if that contour is the outline, and a common
-    -- point
-    Meets Region Name Name (Region, Region) Bool Point
+    -- contour, the regions of their definitions, true if that contour is the outline, a common
+    -- point, and the diameter of the cutter if it is known
+    Meets Region Name Name (Region, Region) Bool Point (Maybe Mm)
   | -- | a stepover that exceeds the diameter of the cutter: the stepover, and the diameter
     StepTooWide Region Mm Mm
   deriving stock (Eq, Show)
@@ -53,7 +54,7 @@ toReport misfit = case misfit of
       { message = ["All of " <> quote other <> " stays standing already."],
         hints = ["Leave one of them out. A hollow in an island is a pocket of its own."]
       }
-  Meets region (Name name) (Name outline) (island, there) True p ->
+  Meets region (Name name) (Name outline) (island, there) True p cutter ->
     (at region "E0358" ("the island " <> quote name <> " meets the outline of the pocket"))
       { others = [Label island "the island", Label there "the outline"],
         message =
@@ -62,17 +63,18 @@ toReport misfit = case misfit of
               <> "; the outline is "
               <> quote outline
               <> "."
-          ],
+          ]
+            <> roomText cutter,
         hints =
           [ "Correct the place or the size of "
               <> quote name
               <> ". Or, if it is to be joined to the wall, draw the outline round it."
           ]
       }
-  Meets region (Name name) (Name other) (first, second) False p ->
+  Meets region (Name name) (Name other) (first, second) False p cutter ->
     (at region "E0358" ("the island " <> quote name <> " meets the island " <> quote other))
       { others = [Label r "this island" | r <- [first, second]],
-        message = ["They cross or touch at " <> Vec.toText 4 p <> "."],
+        message = ["They cross or touch at " <> Vec.toText 4 p <> "."] <> roomText cutter,
         hints =
           [ "Correct the place or the size of one of them. Or draw islands that grow together as \
             \one contour."
@@ -99,3 +101,10 @@ toReport misfit = case misfit of
             | let half = Decimal.mm (times 0.5 diameter)
           ]
       }
+
+-- | The sentence about the room that a cutter of the given diameter needs.
+roomText :: Maybe Mm -> [Text]
+roomText cutter =
+  [ "To pass between them, the cutter needs its diameter of " <> Decimal.mm d <> "."
+    | Just d <- [cutter]
+  ]

@@ -9,15 +9,17 @@ where
 
 import Base.Decimal qualified as Decimal
 import Base.Name qualified as Name
-import Base.Region (Position (..), Region)
+import Base.Region (Position (..), Region (..))
 import Base.Region qualified as Region
 import Data.Function (on)
 import Data.List (nub, nubBy)
+import Data.Maybe (isNothing)
 import Data.Text (Text)
 import Data.Text qualified as Text
+import Project.MachineDescription (DescriptionText (..))
 import Project.MachineDescription qualified as MachineDescription
 import Report.Fix qualified as Fix
-import Report.Report (Report (..), ReportPlace (..), report)
+import Report.Report (Label (..), Report (..), ReportPlace (..), report)
 import Report.Report qualified as Report
 
 -- | An error of a program as a whole. The region in a constructor is that of the machine's name in
@@ -30,9 +32,9 @@ data Error
     UnknownMachine (Maybe Region) Text [Text]
   | -- | a machine description that cannot be read: the region, the name of its file, and the reason
     DescriptionMissing (Maybe Region) Text Text
-  | -- | a machine description with errors: the region, the name of its file, the text of the file,
-    -- and the errors
-    DescriptionWrong (Maybe Region) Text Text [Report]
+  | -- | a machine description with errors: the region, the name of its file, the description, and
+    -- the errors
+    DescriptionWrong (Maybe Region) Text DescriptionText [Report]
   | -- | the program moves nothing, so that the tape would be empty
     NothingToPunch
   deriving stock (Eq, Show)
@@ -110,24 +112,8 @@ reportWith option err = case err of
             \folder that the command line gives."
           ]
       }
-  DescriptionWrong place file text reports ->
-    ( wrong
-        "E0810"
-        (maybe InCommandLine InSource place)
-        ( "the machine’s description ‘"
-            <> file
-            <> "’ has mistakes"
-            <> Text.concat [": " <> title r | r <- take 1 shown]
-        )
-    )
-      { message =
-          concat [lineOf file text r | r <- take 1 shown]
-            <> map (inOneLine file text) (drop 1 shown)
-            <> ["The same is wrong at more places." | length shown < length reports],
-        hints = nub (concatMap Report.remedies shown)
-      }
-    where
-      shown = nubBy ((==) `on` title) (Report.sorted reports)
+  DescriptionWrong place file described reports ->
+    descriptionReport (maybe InCommandLine InSource place) file described reports
   NothingToPunch ->
     (wrong "E0808" InFile "the program moves nothing, so there is no tape to punch")
       { hints =
@@ -144,6 +130,38 @@ gCodeControls =
     "fanuc haas heidenhain siemens sinumerik mach3 mach4 linuxcnc grbl gcode g-code iso din66025 \
     \marlin okuma mazak mitsubishi centroid tormach uccnc emc fagor num cnc generic balt-system \
     \smoothie duet"
+
+-- | The report of a machine description with errors. @at'@ is the place that names the description,
+-- and @file@ is its name. The report points at the first error if the program's source contains the
+-- description.
+descriptionReport :: ReportPlace -> Text -> DescriptionText -> [Report] -> Report
+descriptionReport at' file DescriptionText {base, text} reports =
+  ( report
+      Report.Error
+      "E0810"
+      at'
+      ( "the machine’s description ‘"
+          <> file
+          <> "’ has mistakes"
+          <> Text.concat [": " <> title r | r <- first]
+      )
+  )
+    { others = concat [maybe [] (pure . label) base | label <- labels],
+      message =
+        concat [lineOf file text r | r <- first, isNothing base || null labels]
+          <> map (inOneLine file text) (drop 1 shown)
+          <> ["The same is wrong at more places." | length shown < length reports],
+      hints = nub (concatMap Report.remedies shown)
+    }
+  where
+    shown = nubBy ((==) `on` title) (Report.sorted reports)
+    first = take 1 shown
+    labels =
+      [ \offset -> Label (Region (offset + from) (offset + to)) words'
+        | r <- first,
+          InSource (Region from to) <- [place r],
+          let words' = if Text.null (Report.label r) then "here" else Report.label r
+      ]
 
 -- | The line of a description to which a report points, with its number.
 lineOf :: Text -> Text -> Report -> [Text]

@@ -29,7 +29,7 @@ import Sheet.ToSurface qualified as Sheet
 import Surface.Error qualified as Surface
 import Surface.Import qualified as Surface
 import Surface.Syntax qualified as Surface
-import System.FilePath (takeDirectory, takeExtension, (</>))
+import System.FilePath (normalise, takeDirectory, takeExtension, (</>))
 
 -- | A part program and its files.
 data LoadedProgram = LoadedProgram
@@ -60,7 +60,7 @@ load reader path text
   | isInputSheet path = pure (fromInputSheet path text)
   | otherwise = do
     loaded <- Surface.load reader path text
-    descriptions <-
+    found <-
       traverse
         (MachineDescription.load (Surface.contents reader) (takeDirectory path))
         (maybe [] describedMachines (output (Surface.surface loaded)))
@@ -68,16 +68,18 @@ load reader path text
       traverse
         (\p -> (p,) . Text.pack <$> Surface.identity reader (Text.unpack p))
         (nubOrd (Text.pack path : map snd (Surface.imports loaded)))
+    let paths = [Text.pack (takeDirectory path </> Text.unpack name) | (name, _) <- found]
+        (source, descriptions) =
+          MachineDescription.placed (Surface.source loaded) (map normal paths) found
+        normal = Text.pack . normalise . Text.unpack
     pure
       LoadedProgram
-        { source = Surface.source loaded,
+        { source,
           surface = mapErrors Surface.toReport Surface.toReport (Surface.surface loaded),
           isSheet = False,
           imports = Surface.imports loaded,
           descriptions,
-          files =
-            map snd (Surface.imports loaded)
-              <> [Text.pack (takeDirectory path </> Text.unpack name) | (name, _) <- descriptions],
+          files = map snd (Surface.imports loaded) <> paths,
           identities
         }
 

@@ -72,7 +72,7 @@ missing :: Maybe Region -> Text -> Missing -> Error
 missing region name why = case why of
   NoSuchMachine -> UnknownMachine region name builtInNames
   NoDescription reason -> DescriptionMissing region name reason
-  BadDescription text reports -> DescriptionWrong region name text reports
+  BadDescription described reports -> DescriptionWrong region name described reports
 
 -- | The names of the built-in machines.
 builtInNames :: [Text]

@@ -23,6 +23,7 @@ import Base.Quantity (Mm (..), Rad (..), degrees, times)
 import Base.Region (Located (..), Region)
 import Base.Region qualified as Region
 import Data.Text (Text)
+import Data.Text qualified as Text
 import Geometry.Segment (Segment (..))
 import Geometry.Segment qualified as Segment
 import Geometry.Vec (Point)
@@ -106,7 +107,7 @@ warningReport warning = case warning of
       z
       (Label named "not cleared yet inside this contour")
       ("The inside of " <> text contour <> " is not cleared")
-      "let the cutter plunge at its feed."
+      "let the cutter plunge at a feed"
   RapidIntoHole region p z hole ->
     rapidIntoMaterial
       region
@@ -114,7 +115,7 @@ warningReport warning = case warning of
       z
       (Label hole "not drilled yet")
       "The hole is not drilled"
-      "let the drill go down at its feed."
+      "let the drill go down at a feed"
   SpindleAtRest region spindle ->
     ( report
         Report.Warning
@@ -159,8 +160,16 @@ rapidIntoMaterial region p z material uncleared advice =
             <> uncleared
             <> " down to there before."
         ],
-      hints = ["Stop above the material, and " <> advice]
+      hints =
+        [ "Stop above the material, and "
+            <> advice
+            <> ": move ("
+            <> Text.intercalate ", " (map (Decimal.short 3) [Vec.x p, Vec.y p, height])
+            <> ") feed and a number."
+        ]
     }
+  where
+    Mm height = z
 
 -- | The text for one position of rest material.
 restPositionText :: Tool -> RestPosition -> Text

@@ -203,6 +203,18 @@ spec = do
               (named, err) `shouldSatisfy` (isInfixOf report . snd)
               isInfixOf "in quotation marks: machine \"shop.machine\"" err
                 `shouldBe` (named == "shop.machine")
+    it "shows a mistake in a description in the description itself" $
+      inFolder $ \folder -> do
+        (_, description, _) <- partc ["machines", "iso6983", "--text"]
+        let wrong = Text.replace "decimals 3" "decimals many" (Text.pack description)
+            file = folder </> "shop.machine"
+        ByteString.writeFile file (Encoding.encodeUtf8 wrong)
+        writeFile (folder </> "x.part") "part x\nmachine \"shop.machine\"\nfeed 60\n"
+        (code, _, err) <- partc ["check", folder </> "x.part"]
+        code `shouldBe` ExitFailure 1
+        err `shouldSatisfy` isInfixOf (folder </> "x.part:2:9")
+        err `shouldSatisfy` isInfixOf ("::: " <> file <> ":")
+        err `shouldSatisfy` isInfixOf "decimals many"
     it "warns when it does not verify the tape" $
       inFolder $ \folder -> do
         copyFlange folder
