@@ -76,8 +76,8 @@ pointsAddedReport region left right half =
     }
 
 -- | The report of a feed per revolution, per tooth or per second.
-unknownUnitReport :: Region -> Numeral -> Unit -> Text -> [Double] -> Report
-unknownUnitReport region n unit word speeds =
+unknownUnitReport :: Region -> Numeral -> Unit -> Text -> Maybe Double -> Report
+unknownUnitReport region n unit word known =
   (at region "E0201" (quote (unitName unit <> "/" <> word) <> " is no unit of the language"))
     { message = ["Feeds are given per minute: mm/min, m/min or in/min."],
       fixes =
@@ -94,18 +94,13 @@ unknownUnitReport region n unit word speeds =
                      (perMinute speed)
                  )
                | word `elem` revolutionWords,
-                 speed <- take 1 speeds
+                 Just speed <- [known]
              ],
       hints =
-        [ "Multiply the feed per revolution by the speed of the spindle: at 900 turns a minute, "
-            <> digits n
-            <> " "
-            <> unitName unit
-            <> " is "
-            <> perMinute 900
-            <> "."
+        [ "Write the feed per minute: " <> digits n <> " " <> unitName unit
+            <> " times the turns a minute of the spindle."
           | word `elem` revolutionWords,
-            null speeds
+            Nothing <- [known]
         ]
           <> [ "Multiply the feed per tooth by the count of teeth and by the speed of the spindle."
                | word `elem` toothWords

@@ -59,8 +59,8 @@ data Error
   | -- | a point without its comma: the difference of its coordinates, the offset of the comma
     CommaMissing Region Int
   | -- | a feed whose unit the language does not have: its number, the unit of its length, the word
-    -- after the stroke, and speeds of the spindle in turns per minute
-    UnknownUnit Region Numeral Unit Text [Double]
+    -- after the stroke, and the speed of the spindle in turns per minute if the program gives it
+    UnknownUnit Region Numeral Unit Text (Maybe Double)
   | -- | the coordinates of a point without its brackets
     BareCoordinates Region
   | -- | a number with pi that is used as an angle without a unit
@@ -214,7 +214,7 @@ toReport err = case err of
       }
   CommaMissing region offset -> commaMissingReport region offset
   PointsAdded region left right half -> pointsAddedReport region left right half
-  UnknownUnit region n unit word speeds -> unknownUnitReport region n unit word speeds
+  UnknownUnit region n unit word speed -> unknownUnitReport region n unit word speed
   BareCoordinates region -> bareCoordinatesReport region
   RadiansWithoutUnit region -> radiansReport region
   DefinedTwice region (Name name) before again uses ->

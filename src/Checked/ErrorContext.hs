@@ -185,7 +185,7 @@ completed statements e = case e of
     | wanted == Type.aPoint,
       first : _ <- [l | Binary Subtract l _ <- termsAt statements at] ->
       CommaMissing at (end (region first))
-  UnknownUnit at n unit word _ -> UnknownUnit at n unit word (spindleSpeeds statements at)
+  UnknownUnit at n unit word _ -> UnknownUnit at n unit word (spindleSpeed statements at)
   Mismatch at wanted found elsewhere _ ->
     Mismatch at wanted found elsewhere (termAt statements at)
   Disagree at operator left right elsewhere _ ->
@@ -238,17 +238,31 @@ addedPoints statements at =
         (region r)
         whole
 
--- | The speeds of the spindle that a program gives as numbers, in turns per minute, those below a
--- region first.
-spindleSpeeds :: [Statement] -> Region -> [Double]
-spindleSpeeds statements at =
-  map snd (sortOn ((< start at) . fst) speeds)
+-- | The speed of the spindle in turns per minute at the statement that contains a region. 'Nothing'
+-- if the program does not give it as a number, or if it is not certain which statement gave it.
+spindleSpeed :: [Statement] -> Region -> Maybe Double
+spindleSpeed program at = go Nothing program
   where
-    speeds =
-      [ (start r, amount n)
-        | Located r (Spindle (Spinning _ (Just (Located _ (Literal n _))))) <-
-            concatMap SyntaxWalk.statementsIn statements
-      ]
+    go speed statements = case statements of
+      [] -> Nothing
+      s : rest
+        | contains at (region s) -> inside speed s
+        | otherwise -> go (after speed s) rest
+    inside speed s = case value s of
+      -- The turns after the first begin with the speed at the end of the block.
+      Repeat _ _ body -> go (if any (isCommand . value) (everyIn body) then Nothing else speed) body
+      When _ body others -> go speed (if any (contains at . region) body then body else others)
+      With _ body -> go speed body
+      _ -> speed
+    after speed s = case value s of
+      Spindle (Spinning _ (Just (Located _ (Literal n _)))) -> Just (amount n)
+      _ | any (isCommand . value) (SyntaxWalk.statementsIn s) -> Nothing
+      _ -> speed
+    everyIn = concatMap SyntaxWalk.statementsIn
+    isCommand s = case s of
+      Spindle _ -> True
+      Change _ _ -> True
+      _ -> False
 
 -- | The commas between arguments that may be decimal commas: those between two numbers without
 -- units, with no space on either side.

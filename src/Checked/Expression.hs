@@ -283,7 +283,7 @@ divisor env op l r = case (op, value l, value r) of
         Nothing ->
           wrongTerm
             (region r)
-            (UnknownUnit (Region (start (region l)) (end (region r))) n unit word [])
+            (UnknownUnit (Region (start (region l)) (end (region r))) n unit word Nothing)
         Just _ -> infer env r
   (Surface.Divide, Surface.Literal _ (Just unit), Surface.Variable (Name "min"))
     | unit `elem` [Millimetre, Metre, Inch] ->
