@@ -11,6 +11,7 @@ module Checked.Call
     placeholders,
     pointFixes,
     byLikeness,
+    fitsCount,
   )
 where
 
@@ -172,3 +173,9 @@ byLikeness types forms' = sortOn distance (filter isNear forms')
 placeholders :: Form -> [(Text, Maybe Text)]
 placeholders form =
   [(Builtin.title p, ErrorFix.placeholder (Builtin.type' p)) | p <- Builtin.parameters form]
+
+-- | Tells if a word may be a function with this count of arguments.
+fitsCount :: Text -> Int -> Bool
+fitsCount word count = case Builtin.lookup word of
+  Just builtin -> count `elem` map (length . Builtin.parameters) (Builtin.formsForReports builtin)
+  Nothing -> word `notElem` Keyword.reservedWords

@@ -21,6 +21,7 @@ import Checked.ArithmeticReport
 import Checked.CallReport
 import Checked.ErrorFix (WrittenTerm)
 import Checked.ErrorFix qualified as ErrorFix
+import Checked.ListError (listReport)
 import Checked.NameMeaning qualified as NameMeaning
 import Checked.PieceError (PieceError)
 import Checked.PieceError qualified as PieceError
@@ -71,6 +72,16 @@ data Error
   | -- | a term of the wrong type: the required type, the type of the term, the other regions at
     -- which these types were decided, each with the decided type, and facts about the term
     Mismatch Region Type Type [(Region, Type)] WrittenTerm
+  | -- | lists among the items of a list, at its region: the type that the place of the list needs
+    -- of each item; the lists with their types; an item that is no list; the first of the lists as
+    -- it is written, and the fixes. The report points at the first of the lists
+    ListAmongItems
+      Region
+      (Maybe Type)
+      [(Region, Type)]
+      (Maybe (Region, Type))
+      (Maybe Text)
+      [Fix]
   | -- | a sum, a difference or a comparison whose operands do not fit: the operator, the left and
     -- the right operand, and the other regions at which their types were decided, each with the
     -- decided type. Then the facts about both operands; 'Nothing' if the operation is in the body
@@ -259,6 +270,8 @@ toReport err = case err of
         fixes = ErrorFix.mismatchFixes region expected found term,
         hints = mismatchHint expected found <> callHint term
       }
+  ListAmongItems _ needed lists single written found ->
+    listReport needed lists single written found
   Disagree region operator (leftRegion, left) (rightRegion, right) elsewhere terms ->
     ( at
         region

@@ -15,6 +15,7 @@ import Checked.ErrorFix
   ( WrittenTerm (WrittenTerm, callForm, curve, freeName, isOwnCall, isPairList, literal, statement),
   )
 import Checked.ErrorFix qualified as ErrorFix
+import Checked.ListError qualified as ListError
 import Checked.Type qualified as Type
 import Data.Char (isDigit)
 import Data.Foldable (toList)
@@ -188,6 +189,10 @@ completed statements e = case e of
   UnknownUnit at n unit word _ -> UnknownUnit at n unit word (spindleSpeed statements at)
   Mismatch at wanted found elsewhere _ ->
     Mismatch at wanted found elsewhere (termAt statements at)
+  ListAmongItems at needed lists single _ _ ->
+    let first = mapMaybe written (concatMap (termsAt statements . fst) (take 1 lists))
+        found = ListError.listFixesAt statements at lists
+     in ListAmongItems at needed lists single (listToMaybe first) found
   Disagree at operator left right elsewhere _ ->
     Disagree at operator left right elsewhere $
       if isOwnCall (termAt statements at)

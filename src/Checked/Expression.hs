@@ -27,6 +27,7 @@ import Checked.Call
   ( Call (..),
     argumentValues,
     byLikeness,
+    fitsCount,
     labelChanges,
     labelOf,
     nearestForm,
@@ -43,7 +44,8 @@ import Checked.ErrorFix qualified as ErrorFix
 import Checked.Inference (Infer)
 import Checked.Inference qualified as Inference
 import Checked.Inference.Fast qualified as FastInference
-import Checked.Inference.Literal (plainFactor, radians)
+import Checked.Inference.List qualified as List
+import Checked.Inference.Literal (numberType, plainFactor, radians)
 import Checked.Scheme
   ( Arithmetic (..),
     Binding (..),
@@ -55,7 +57,7 @@ import Checked.Scheme qualified as Scheme
 import Checked.Syntax qualified as Checked
 import Checked.Type (Type)
 import Checked.Type qualified as Type
-import Control.Monad (unless, void, when, zipWithM)
+import Control.Monad (unless, void, when, zipWithM, zipWithM_)
 import Data.List.NonEmpty (NonEmpty (..))
 import Data.List.NonEmpty qualified as NonEmpty
 import Data.Map.Strict (Map)
@@ -88,9 +90,15 @@ expect env wanted e = case (value e, wanted) of
   (Surface.Pair x y, Type.Spatial d) | Dimension.isKnown d -> pair env (region e) x y
   _ -> do
     (t, e') <- infer env e
-    isReported <- radians wanted e
-    unless isReported (equal (region e) wanted t)
+    fit wanted e t
     pure e'
+
+-- | Requires that the expression @e@, whose type is @t@, has the type @wanted@. Reports a
+-- difference.
+fit :: Type -> Surface.Expr -> Type -> Infer ()
+fit wanted e t = do
+  isReported <- radians wanted e
+  unless isReported (equal (region e) wanted t)
 
 -- | Requires that @t@, the type of the term at the region @at@, is the type @wanted@. Reports a
 -- difference.
@@ -123,14 +131,16 @@ spatialPoint env e = do
 
 -- | Checks an expression that must be a point or a list of points.
 pointOrPoints :: TypingEnvironment -> Surface.Expr -> Infer (Deferred Checked.Expr)
-pointOrPoints env e = do
-  (t, e') <- infer env e
-  t' <- Inference.resolved t
-  case t' of
-    Type.Spatial _ -> equal (region e) Type.aPoint t
-    Type.Circle -> equal (region e) Type.aPoint t
-    _ -> equal (region e) (Type.ListOf Type.aPoint) t
-  pure e'
+pointOrPoints env e = case value e of
+  Surface.List es -> snd <$> listOf env (region e) (Just Type.aPoint) es
+  _ -> do
+    (t, e') <- infer env e
+    t' <- Inference.resolved t
+    case t' of
+      Type.Spatial _ -> equal (region e) Type.aPoint t
+      Type.Circle -> equal (region e) Type.aPoint t
+      _ -> equal (region e) (Type.ListOf Type.aPoint) t
+    pure e'
 
 -- | Checks an element of a contour. A circle needs a sense. A line, a point, a curve or a contour
 -- must not have one.
@@ -184,13 +194,15 @@ infer env e = case value e of
 
 inferred :: TypingEnvironment -> Surface.Expr -> Infer Typed
 inferred env located@(Located at e) = case e of
-  Surface.Literal (Numeral _ x) unit -> literal at x unit
+  Surface.Literal (Numeral _ x) unit -> do
+    (t, number) <- numberType x unit
+    pure (t, Located at . Checked.Number . number)
   Surface.Variable name -> variable env at name
   Surface.Call name arguments -> do
     found <- fastCall env located
     case found of
       Nothing -> call env at name arguments
-      Just c -> (,FastInference.checkedCall c) <$> fastCallType at c
+      Just c -> (,FastInference.checkedCall c) <$> FastInference.callType at c
   Surface.Negate inner -> do
     (t, inner') <- infer env inner
     result <- operation at Surface.Multiply (at, Type.number) (region inner, t)
@@ -214,10 +226,7 @@ inferred env located@(Located at e) = case e of
     y' <- expect env Type.len y
     z' <- expect env Type.len z
     pure (Type.SpacePoint, \sol -> Located at (Checked.Triple (x' sol) (y' sol) (z' sol)))
-  Surface.List es -> do
-    t <- Inference.freshType
-    es' <- mapM (expect env t) es
-    pure (Type.ListOf t, \sol -> Located at (Checked.List (resolveAll sol es')))
+  Surface.List es -> listOf env at Nothing es
   Surface.Each inner counter list -> do
     (t, list') <- repetition env counter list
     (result, inner') <- Inference.withLocals [(counter, t)] (infer env inner)
@@ -226,18 +235,14 @@ inferred env located@(Located at e) = case e of
         \sol -> Located at (Checked.Each (inner' sol) (value counter) (list' sol))
       )
 
--- | Checks a number of the program. If it has no unit, its dimension follows from its use, and it
--- is in the default unit of that dimension.
-literal :: Region -> Double -> Maybe Unit -> Infer Typed
-literal at x unit = case unit of
-  Just u ->
-    let (t, factor) = Type.ofUnit u in pure (t, const (Located at (Checked.Number (x * factor))))
-  Nothing -> do
-    d <- Inference.freshDimension
-    -- A literal in the body of a function has the same unit in all calls of the function. The
-    -- literal 0 needs none, because 0 is the same in every unit.
-    unless (x == 0) (Inference.monomorphic d)
-    pure (Type.Quantity d, \sol -> Located at (Checked.Number (x * Dimension.defaultUnit (sol d))))
+-- | Checks a list at the region @at@. All items have one type, which is @needed@ if it is given.
+listOf :: TypingEnvironment -> Region -> Maybe Type -> [Surface.Expr] -> Infer Typed
+listOf env at needed es = do
+  checked <- mapM (infer env) es
+  t <- maybe Inference.freshType pure needed
+  isFlat <- List.areFlat at needed (zip (map region es) (map fst checked))
+  when isFlat (zipWithM_ (\e (t', _) -> fit t e t') es checked)
+  pure (Type.ListOf t, \sol -> Located at (Checked.List (resolveAll sol (map snd checked))))
 
 -- | Checks two expressions that must be lengths, and makes a point or vector of them. @at@ is the
 -- region of the pair.
@@ -425,12 +430,6 @@ call env at callee@(Located nameRegion name@(Name text)) arguments = do
     noFunction before = NotAFunction nameRegion name before (length arguments)
     this = Call {callRegion = at, callee, written = NonEmpty.toList arguments}
 
--- | Tells if a word may be a function with this count of arguments.
-fitsCount :: Text -> Int -> Bool
-fitsCount word count = case Builtin.lookup word of
-  Just builtin -> count `elem` map (length . Builtin.parameters) (Builtin.formsForReports builtin)
-  Nothing -> word `notElem` Keyword.reservedWords
-
 -- | Reports the mistake @e@ in a call. Also checks the arguments, so that mistakes in them are
 -- reported, too.
 wrongCall :: TypingEnvironment -> Call -> Error -> Infer Typed
@@ -562,14 +561,6 @@ overloadedCall c builtin labels types = do
           }
     )
   pure callType
-
--- | The type of a call that "Checked.Inference.Fast" has checked. If the function has several
--- forms, the type records that the region @at@ of the call decided it. A later error can then point
--- there.
-fastCallType :: Region -> FastInference.FastCall -> Infer Type
-fastCallType at c
-  | FastInference.isOverloaded c = Inference.freshDecided at (FastInference.resultType c)
-  | otherwise = pure (FastInference.resultType c)
 
 -- | Checks the arguments @es@ of a call, whose parameters have the given types. A flag is false if
 -- its argument has another type, which is then reported. If two arguments are in the wrong order,

@@ -128,7 +128,7 @@ describe t = case t of
     Line -> "a list of lines"
     Contour -> "a list of contours"
     Curve _ -> "a list of curves"
-    ListOf (Quantity d) | d == Dimension.none -> "a list of lists of numbers"
+    ListOf _ | Just items <- Text.stripPrefix "a list" (describe item) -> "a list of lists" <> items
     _ -> "a list"
   Variable _ -> "a value"
   Wrong -> "a value"

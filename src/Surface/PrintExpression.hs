@@ -4,6 +4,7 @@
 module Surface.PrintExpression
   ( CommentPositions (..),
     noComments,
+    oneLine,
     value,
     element,
     list,
@@ -38,6 +39,10 @@ data CommentPositions = CommentPositions
 -- | The comment positions of a text that contains no comment: every answer is False.
 noComments :: CommentPositions
 noComments = CommentPositions {isBetween = \_ _ -> False, isAtComma = \_ _ -> False}
+
+-- | An expression as it is written on one line.
+oneLine :: Expr -> Text
+oneLine e = Text.unwords (map PrettyPrinter.text (PrettyPrinter.render 0 (value noComments e)))
 
 -- | The precedence of an expression, the lowest first. An operand is put in parentheses if its
 -- precedence is lower than the one that the operator before or after it demands.

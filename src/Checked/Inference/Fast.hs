@@ -8,11 +8,12 @@ module Checked.Inference.Fast
   ( literal,
     FastCall (..),
     call,
+    callType,
   )
 where
 
 import Base.Name (Name (..))
-import Base.Region (Located (..))
+import Base.Region (Located (..), Region)
 import Checked.Builtin (Form (..))
 import Checked.Builtin qualified as Builtin
 import Checked.Deferred (Deferred, resolveAll)
@@ -144,3 +145,10 @@ fits shape t = case (shape, t) of
   (Quantity Nothing, Type.Quantity _) -> True
   (Pair, Type.Spatial _) -> True
   _ -> False
+
+-- | The type of a call that this module has checked. If the function has several forms, the type
+-- records that the region @at@ of the call decided it. A later error can then point there.
+callType :: Region -> FastCall -> Infer Type
+callType at c
+  | isOverloaded c = Inference.freshDecided at (resultType c)
+  | otherwise = pure (resultType c)
