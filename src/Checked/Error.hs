@@ -266,7 +266,7 @@ toReport err = case err of
         )
     )
       { label = Type.describe found,
-        others = decidedLabels elsewhere,
+        others = decidedLabels (ErrorFix.definitions term) elsewhere,
         fixes = ErrorFix.mismatchFixes region expected found term,
         hints = mismatchHint expected found <> callHint term
       }
@@ -290,7 +290,7 @@ toReport err = case err of
     )
       { others =
           [Label leftRegion (Type.describe left), Label rightRegion (Type.describe right)]
-            <> decidedLabels elsewhere,
+            <> decidedLabels (maybe [] (ErrorFix.definitions . fst) terms) elsewhere,
         fixes =
           concat
             [ ErrorFix.disagreeFixes operator (leftRegion, left, a) (rightRegion, right, b)
@@ -509,9 +509,16 @@ traversalHint t = case t of
 
 -- | The labels of a report on types that do not fit. They are at other regions than the report, at
 -- which the use of a term decided one of these types. A pair contains such a region and the type.
-decidedLabels :: [(Region, Type)] -> [Label]
-decidedLabels elsewhere =
-  [Label r (Type.describe t <> ", since it is used as one here") | (r, t) <- elsewhere]
+-- The regions @made@ are those of calculations that define names.
+decidedLabels :: [Region] -> [(Region, Type)] -> [Label]
+decidedLabels made elsewhere =
+  [ Label
+      r
+      ( Type.describe t
+          <> (if r `elem` made then ", as defined here" else ", since it is used as one here")
+      )
+    | (r, t) <- elsewhere
+  ]
 
 -- | The operands of a sum or a comparison as the subject of a sentence.
 operands :: Maybe (WrittenTerm, WrittenTerm) -> Text

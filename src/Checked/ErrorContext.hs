@@ -12,7 +12,18 @@ import Checked.CallError qualified as CallError
 import Checked.Error (Error (..), StatementMove (..))
 import Checked.Error qualified as Error
 import Checked.ErrorFix
-  ( WrittenTerm (WrittenTerm, callForm, curve, freeName, isOwnCall, isPairList, literal, statement),
+  ( WrittenTerm
+      ( WrittenTerm,
+        callForm,
+        curve,
+        definitions,
+        freeName,
+        isOwnCall,
+        isPairList,
+        literal,
+        sense,
+        statement
+      ),
   )
 import Checked.ErrorFix qualified as ErrorFix
 import Checked.ListError qualified as ListError
@@ -28,6 +39,7 @@ import Data.Text (Text)
 import Data.Text qualified as Text
 import Report.Report (ReportPlace (..), place)
 import Surface.Keyword qualified as Keyword
+import Surface.PrintExpression qualified as PrintExpression
 import Surface.Syntax (Expr_ (..), Item_ (..), Operator (..), Spin (..), Statement, Statement_ (..))
 import Surface.Syntax qualified as Surface
 import Surface.SyntaxWalk qualified as SyntaxWalk
@@ -300,14 +312,32 @@ termAt statements at =
   WrittenTerm
     { literal = listToMaybe [(digits n, unit) | Literal n (Just unit) <- terms],
       statement = region <$> listToMaybe around,
-      freeName = listToMaybe [(name, free statements name) | Variable (Name name) <- terms],
+      freeName =
+        listToMaybe
+          ( [(name, free statements name) | Variable (Name name) <- terms]
+              <> [ (PrintExpression.oneLine (Located at x), free statements "edge")
+                   | x@(Call _ _) <- terms
+                 ]
+          ),
       ErrorFix.words = listToMaybe (mapMaybe written terms),
       isPairList = or [length es `elem` [2, 3] | List es <- terms],
       isOwnCall = or [isNothing (Builtin.lookup name) | Call (Located _ (Name name)) _ <- terms],
       callForm = CallError.formAround statements at,
-      curve = listToMaybe [c | Variable n <- terms, Just c <- [curveThrough statements at n]]
+      curve = listToMaybe [c | Variable n <- terms, Just c <- [curveThrough statements at n]],
+      sense = if isMilledOutside then "cw" else "ccw",
+      definitions =
+        [ region e
+          | Located _ (LetValue _ e) <- concatMap SyntaxWalk.statementsIn statements,
+            isCalculation (value e)
+        ]
     }
   where
+    isMilledOutside =
+      or [True | Located _ (Mill e (Located _ Surface.Outside) _) <- around, region e == at]
+    isCalculation x = case x of
+      Literal _ _ -> False
+      Variable _ -> False
+      _ -> True
     around = innermostFirst at (concatMap SyntaxWalk.statementsIn statements)
     terms = termsAt statements at
 
@@ -355,7 +385,9 @@ definitionAt statements at (Name name) =
       isOwnCall = False,
       isPairList = False,
       callForm = Nothing,
-      curve = Nothing
+      curve = Nothing,
+      sense = "ccw",
+      definitions = []
     }
   where
     everything = concatMap SyntaxWalk.statementsIn statements

@@ -56,7 +56,11 @@ data WrittenTerm = WrittenTerm
     -- | the call of which the term is an argument, with the names of its parameters
     callForm :: Maybe Text,
     -- | the name of the curve through the points of a table that the term names
-    curve :: Maybe Text
+    curve :: Maybe Text,
+    -- | the sense in which a contour of the term would be milled: @cw@ or @ccw@
+    sense :: Text,
+    -- | the regions of the calculations that define names of the program
+    definitions :: [Region]
   }
   deriving stock (Eq, Show)
 
@@ -71,7 +75,9 @@ unwritten =
       isOwnCall = False,
       isPairList = False,
       callForm = Nothing,
-      curve = Nothing
+      curve = Nothing,
+      sense = "ccw",
+      definitions = []
     }
 
 -- | A term as the subject of a sentence: as it is written, or "this".
@@ -157,19 +163,28 @@ mismatchFixes region wanted found term = case literal term of
                 Fix.exchange "" (Region (end region - 1) (end region)) ")"
               ]
           ]
-      (Contour, Circle, Just whole, Just (name, free)) ->
-        [ Fix.proposed
-            ( Fix.joined
-                ("Make the contour " <> quote free <> " of this circle, and take it.")
-                [ Fix.insertion
-                    ""
-                    (start whole)
-                    ("contour " <> free <> " closed { ccw " <> name <> " }\n"),
-                  Fix.exchange "" region free
-                ]
-            )
-        ]
+      (Contour, Circle, Just whole, Just names) -> [circleFix region whole names (sense term)]
       _ -> []
+
+-- | The fix that makes a contour of the circle at a region, above the statement that takes it. It
+-- has the circle as it is written, a free name for the contour, and the sense.
+circleFix :: Region -> Region -> (Text, Text) -> Text -> Fix
+circleFix region whole (name, free) turn =
+  Fix.proposed
+    Fix
+      { title =
+          "Write above this statement: " <> before <> name <> " }, and write " <> quote free
+            <> " here.",
+        isProposal = True,
+        edits =
+          [ FixEdit
+              (Region (start whole) (start whole))
+              [Written before, Copied region, Written " }\n"],
+            FixEdit region [Written free]
+          ]
+      }
+  where
+    before = "contour " <> free <> " closed { " <> turn <> " "
 
 -- | The unit of a type, if a number with the given unit can have it instead.
 unitFor :: Type -> Unit -> Maybe Text
