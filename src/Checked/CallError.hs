@@ -6,6 +6,7 @@ module Checked.CallError
   ( inOrder,
     oncePerCall,
     formAround,
+    writtenCall,
     suspects,
     isDoubtful,
   )
@@ -14,15 +15,20 @@ where
 import Base.Name (Name (..))
 import Base.Region (Located (..), Region (..))
 import Checked.Builtin qualified as Builtin
+import Checked.CallReport (BothUses (..), WrittenCall (..))
 import Checked.Error (Error (..))
 import Checked.Syntax qualified as Checked
 import Checked.Type (Type)
 import Checked.Type qualified as Type
+import Data.List (sortOn)
 import Data.List.NonEmpty (NonEmpty (..))
 import Data.List.NonEmpty qualified as NonEmpty
+import Data.Maybe (fromMaybe, listToMaybe, mapMaybe)
 import Data.Set (Set)
 import Data.Set qualified as Set
 import Data.Text (Text)
+import Data.Text qualified as Text
+import Surface.PrintExpression (oneLine)
 import Surface.Syntax
 import Surface.SyntaxWalk qualified as SyntaxWalk
 
@@ -71,30 +77,107 @@ formAround statements at = case calls of
   where
     calls = [c | c <- knownCalls statements, at `elem` values c, length (values c) > 1]
 
+-- | The facts about a call of a function, whose arguments have the given regions.
+writtenCall :: [Statement] -> Name -> [Region] -> WrittenCall
+writtenCall statements function given =
+  WrittenCall
+    { definition =
+        listToMaybe
+          [ Region (start (region n)) (end (region (NonEmpty.last ps)))
+            | Located _ (LetFunction n ps _) <- concatMap SyntaxWalk.statementsIn statements,
+              value n == function
+          ],
+      writtenArguments = map oneLine (concatMap (termsAt statements) given)
+    }
+
+-- | The terms at a region.
+termsAt :: [Statement] -> Region -> [Expr]
+termsAt statements at =
+  [ e
+    | s <- concatMap SyntaxWalk.statementsIn statements,
+      x <- SyntaxWalk.ofStatement s,
+      e <- SyntaxWalk.everywhere x,
+      region e == at
+  ]
+
 -- | The errors, with one error for a call whose two arguments are in the wrong order. Exchanging
--- them has to remove an error, and may cause no other. @recheck@ gives the errors of other
--- statements.
+-- them has to remove an error, and may cause no other. If an exchange in either of two calls does
+-- that equally well, the error names both. @recheck@ gives the errors of other statements.
 inOrder :: ([Statement] -> [Error]) -> [Statement] -> [Error] -> [Error]
-inOrder recheck statements errors = case solutions of
-  found : _ -> found
+inOrder recheck statements errors = case sortOn (length . left) (known <> solutions) of
   [] -> errors
+  best : rest
+    | both : _ <- mapMaybe (usedAsBoth statements best) (filter (isEqual best) rest) ->
+      both : left best
+    | fault best `elem` errors -> errors
+    | otherwise -> fault best : left best
   where
-    decided = contradicted errors
+    isEqual a b = length (left a) == length (left b)
+    -- Calls that inference has found in the wrong order, but because of uses elsewhere.
+    known =
+      [ Exchange e at (map fst given) (fromMaybe (filter (/= e) errors) (exchanged at))
+        | e@(Swapped at _ given _ _ (_ : _)) <- errors
+      ]
     solutions =
-      [ Swapped (place c) (name c) [(a, second), (b, first)] (form c) (0, 1) : left
-        | c <- take 4 (knownCalls statements),
+      [ Exchange
+          (Swapped (place c) (name c) [(a, second), (b, first)] (form c) (0, 1) [])
+          (place c)
+          [a, b]
+          errors'
+        | c <- take 4 (filter isSuspect (knownCalls statements)),
           [a, b] <- [values c],
-          a `elem` decided || b `elem` decided,
-          let left = recheck (map (exchangedAt (place c)) statements),
-          length left < length errors,
-          all (`elem` errors) left,
-          [(_, first), (_, second)] <- [parameters c]
+          [(_, first), (_, second)] <- [parameters c],
+          Just errors' <- [exchanged (place c)]
+      ]
+    isSuspect c =
+      place c `notElem` map call known && or [within r v | r <- contradicted errors, v <- values c]
+    within r v = start v <= start r && end r <= end v
+    exchanged at
+      | length errors' < length errors && all (`elem` errors) errors' = Just errors'
+      | otherwise = Nothing
+      where
+        errors' = recheck (map (exchangedAt at) statements)
+
+-- | The exchange of the arguments of a call: the error that asks for it, the regions of the call
+-- and of its arguments, and the errors that are left after it.
+data Exchange = Exchange {fault :: Error, call :: Region, operands :: [Region], left :: [Error]}
+
+-- | The error of an argument that two calls have in common and use as different types. 'Nothing' if
+-- they have no name in common.
+usedAsBoth :: [Statement] -> Exchange -> Exchange -> Maybe Error
+usedAsBoth statements one another =
+  listToMaybe
+    [ UsedAsBoth
+        other
+        BothUses
+          { argument = text,
+            firstUse = (first, t, written (call a)),
+            otherUse = (t', written (call b)),
+            exchanges = [(written (call e), r, r') | e <- [a, b], [r, r'] <- [operands e]]
+          }
+      | (first, text, t) <- uses a,
+        (other, text', t') <- uses b,
+        text == text',
+        t /= t'
+    ]
+  where
+    (a, b) = if call one < call another then (one, another) else (another, one)
+    written r = Text.concat (take 1 (map oneLine (termsAt statements r)))
+    uses e =
+      [ (r, text, snd p)
+        | c <- knownCalls statements,
+          place c == call e,
+          (r, p) <- zip (values c) (parameters c),
+          Located _ (Variable (Name text)) <- termsAt statements r
       ]
 
 -- | The regions of terms to which several uses give different types.
 contradicted :: [Error] -> [Region]
 contradicted errors =
-  concat [at : map fst elsewhere | Mismatch at _ _ elsewhere@(_ : _) _ <- errors]
+  concat
+    ( [at : map fst elsewhere | Mismatch at _ _ elsewhere@(_ : _) _ <- errors]
+        <> [map fst elsewhere | Swapped _ _ _ _ _ elsewhere <- errors]
+    )
 
 -- | A statement with the two arguments of the call at a region exchanged.
 exchangedAt :: Region -> Statement -> Statement

@@ -2,8 +2,12 @@
 
 -- | The reports of calls whose arguments are in the wrong number, order, place or form.
 module Checked.CallReport
-  ( apartReport,
+  ( BothUses (..),
+    WrittenCall (..),
+    unwrittenCall,
+    apartReport,
     argumentCountReport,
+    bothReport,
     swappedReport,
     toolLetterReport,
     vectorReport,
@@ -33,10 +37,20 @@ apartReport region name gap =
     { fixes = [Fix.removal "Write the bracket of a call right after the name." gap]
     }
 
--- | The report of a call with a wrong number of arguments.
+-- | Facts about a call from the text of the program: the region at which its function is defined,
+-- with the parameters, and the arguments as they are written.
+data WrittenCall = WrittenCall {definition :: Maybe Region, writtenArguments :: [Text]}
+  deriving stock (Eq, Show)
+
+-- | A call of which nothing is known.
+unwrittenCall :: WrittenCall
+unwrittenCall = WrittenCall {definition = Nothing, writtenArguments = []}
+
+-- | The report of a call with a wrong number of arguments: the function, its parameters, the
+-- regions of the arguments, the call as it is written, and the fixes.
 argumentCountReport ::
-  Region -> Text -> [(Text, Maybe Text)] -> [Region] -> [Region] -> [Fix] -> Report
-argumentCountReport region name wanted given commas points =
+  Region -> Text -> [Text] -> [Region] -> WrittenCall -> [Fix] -> Report
+argumentCountReport region name wanted given call fixes =
   ( at
       region
       "E0208"
@@ -50,12 +64,15 @@ argumentCountReport region name wanted given commas points =
       )
   )
     { message =
-        ["It is called as " <> name <> "(" <> Text.intercalate ", " (map fst wanted) <> ")."],
-      fixes =
-        if null points
-          then ErrorFix.decimalFixes commas <> ErrorFix.argumentFixes wanted given
-          else points
+        ["It is called as " <> name <> "(" <> Text.intercalate ", " wanted <> ")."],
+      others = [Label r "defined here" | Just r <- [definition call]],
+      fixes,
+      hints = ["Add " <> ErrorFix.joinedWords missing <> ": " <> added | null fixes, isWritten]
     }
+  where
+    missing = drop (length given) wanted
+    added = name <> "(" <> Text.intercalate ", " (writtenArguments call <> missing) <> ")"
+    isWritten = not (null missing) && length (writtenArguments call) == length given
 
 -- | The report of two arguments, with the given indices, in the wrong order. @form@ is the call in
 -- the right order.
@@ -68,6 +85,45 @@ swappedReport region name given form (i, j) =
         [ Fix.swap "Exchange these two arguments." a b
           | (a, _) : _ <- [drop i given],
             (b, _) : _ <- [drop j given]
+        ]
+    }
+
+-- | An argument that two calls use as different types.
+data BothUses = BothUses
+  { -- | the argument as it is written
+    argument :: Text,
+    -- | the use that was found first: its region, its type, and the call as it is written
+    firstUse :: (Region, Type, Text),
+    -- | the type and the call of the other use
+    otherUse :: (Type, Text),
+    -- | the two arguments of each of the calls, with the call as it is written
+    exchanges :: [(Text, Region, Region)]
+  }
+  deriving stock (Eq, Show)
+
+-- | The report of an argument that two calls use as different types. It points at the other use.
+bothReport :: Region -> BothUses -> Report
+bothReport region BothUses {argument, firstUse = (r, t, call), otherUse = (t', call'), exchanges} =
+  ( at
+      region
+      "E0205"
+      ( quote argument
+          <> " is "
+          <> Type.describe t
+          <> " in "
+          <> call
+          <> " and "
+          <> Type.describe t'
+          <> " in "
+          <> call'
+      )
+  )
+    { label = Type.describe t' <> " here",
+      others = [Label r (Type.describe t <> " here")],
+      message = ["One of these calls has its arguments in the wrong order."],
+      fixes =
+        [ Fix.proposed (Fix.swap ("Exchange the arguments of " <> written <> ".") a b)
+          | (written, a, b) <- exchanges
         ]
     }
 

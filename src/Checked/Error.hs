@@ -97,11 +97,16 @@ data Error
     NoOperation Region UndefinedOperation [(Region, Type)]
   | -- | a call with a wrong number of arguments: the function, its parameters, each with a value
     -- that could stand in its place, the regions of the arguments in the call,
-    -- the commas that may be decimal commas, and the fix of points without brackets
-    ArgumentCount Region Name [(Text, Maybe Text)] [Region] [Region] [Fix]
-  | -- | two arguments in the wrong order: the function, the arguments with their types, and the
-    -- right order as a call
-    Swapped Region Name [(Region, Type)] Text (Int, Int)
+    -- the commas that may be decimal commas, the fix of points without brackets, and the call as
+    -- the program writes it
+    ArgumentCount Region Name [(Text, Maybe Text)] [Region] [Region] [Fix] WrittenCall
+  | -- | two arguments in the wrong order: the function, the arguments with their types, the right
+    -- order as a call, the indices of the two arguments, and the other regions at which the types
+    -- of the arguments were decided, each with the decided type
+    Swapped Region Name [(Region, Type)] Text (Int, Int) [(Region, Type)]
+  | -- | an argument that another call uses as another type, where either of the calls may have its
+    -- arguments in the wrong order. The report points at the later one of both uses
+    UsedAsBoth Region BothUses
   | -- | a call of a name that is no function: the name, the region of its definition unless it is
     -- built in, and the number of arguments
     NotAFunction Region Name (Maybe Region) Int
@@ -312,9 +317,13 @@ toReport err = case err of
       { others = [Label r (Type.describe t) | (r, t) <- values],
         fixes = ErrorFix.measureFixes values
       }
-  ArgumentCount region (Name name) wanted given commas points ->
-    argumentCountReport region name wanted given commas points
-  Swapped region (Name name) given form order -> swappedReport region name given form order
+  ArgumentCount region (Name name) wanted given commas points call ->
+    argumentCountReport region name (map fst wanted) given call $
+      if null points
+        then ErrorFix.decimalFixes commas <> ErrorFix.argumentFixes wanted given
+        else points
+  Swapped region (Name name) given form order _ -> swappedReport region name given form order
+  UsedAsBoth region uses -> bothReport region uses
   CallApart region (Name name) gap -> apartReport region name gap
   ToolLetter region (Name name) digits -> toolLetterReport region name digits
   NumberForVector region (Name name) numbers form -> vectorReport region name numbers form

@@ -224,8 +224,10 @@ completed statements e = case e of
      in NoForm at name given known misfits changes commas points
   NoSuchCall at name known changes call@(Just (given, _)) _ points ->
     NoSuchCall at name known changes call (decimalCommas statements given) points
-  ArgumentCount at name wanted given _ points ->
-    ArgumentCount at name wanted given (decimalCommas statements given) points
+  ArgumentCount at name wanted given _ points _ ->
+    let commas = decimalCommas statements given
+     in ArgumentCount at name wanted given commas points $
+          CallError.writtenCall statements name given
   _ -> e
 
 isSpatial :: Type.Type -> Bool

@@ -330,12 +330,11 @@ measureFixes operands = case filter (isJust . measure . snd) operands of
 -- Calls
 
 -- | A value that can stand in a program until the right one is known; 'Nothing' for types that
--- have none.
+-- have none. Lengths and numbers have none, because radii and counts cannot be zero.
 placeholder :: Type -> Maybe Text
 placeholder t = case t of
-  Quantity _ -> Just "0"
+  Quantity _ | t == Type.angle -> Just "0"
   Spatial _ -> Just "(0, 0)"
-  Variable _ -> Just "0"
   _ -> Nothing
 
 -- | Fixes of a call with too few or too many arguments: the parameters with their placeholders, and

@@ -36,6 +36,7 @@ import Checked.Call
     unlabelled,
     withLabels,
   )
+import Checked.CallReport (unwrittenCall)
 import Checked.Deferred (Deferred, resolveAll)
 import Checked.Dimension qualified as Dimension
 import Checked.Error (Error (..))
@@ -465,6 +466,7 @@ functionCall env c parameters scheme = do
             (map region (argumentValues c))
             []
             []
+            unwrittenCall
         )
   where
     at = callRegion c
@@ -487,11 +489,12 @@ builtinCall env c builtin = do
         at
         ( ArgumentCount
             at
-            name
+            (value (callee c))
             (placeholders form)
             (map region es)
             []
             (pointFixes (Builtin.name builtin) (zip (map region es) types) forms)
+            unwrittenCall
         )
     ([], _, _) -> noSuchCall env c builtin forms
     ([form], _, _) | isOnlyForm || any (/= Builtin.NoLabel) labels -> do
@@ -512,7 +515,6 @@ builtinCall env c builtin = do
       pure (t, term (map snd checked))
   where
     at = callRegion c
-    name = value (callee c)
     labels = map labelOf (written c)
     term values sol =
       Located at (Checked.Builtin builtin (withLabels (written c) (map ($ sol) values)))
@@ -577,8 +579,9 @@ checkedArguments env c form types es = do
   found <- mapM (Inference.resolved . fst) checked
   case Inference.exchanged found types of
     Just order -> do
-      Inference.mistake
-        (Swapped (callRegion c) (value (callee c)) (zip (map region es) found) form order)
+      let given = zip (map region es) found
+      elsewhere <- Inference.decidedElsewhere (zip3 (map region es) (map fst checked) found)
+      Inference.mistake (Swapped (callRegion c) (value (callee c)) given form order elsewhere)
       pure [(False, e') | (_, e') <- checked]
     Nothing ->
       zipWithM

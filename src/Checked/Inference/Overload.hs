@@ -62,9 +62,7 @@ reportMisfit call types = case mapMaybe (oneMisfit call types) (formsByLabels ca
     elsewhere <- decidedElsewhere [(region, written, found)]
     mistakeOnce (map fst elsewhere) (Mismatch region wanted found elsewhere unwritten)
   [] -> case mapMaybe (\f -> (f,) <$> exchanged types (parameterTypes f)) (formsByLabels call) of
-    (form, order) : _ ->
-      mistake
-        (Swapped (callRegion call) (Name name) given (Builtin.formText (builtin call) form) order)
+    (form, order) : _ -> reportOrder call types form order
     [] ->
       mistake
         ( NoForm
@@ -93,6 +91,21 @@ reportMisfit call types = case mapMaybe (oneMisfit call types) (formsByLabels ca
         | f <- Builtin.forms plainUnknowns (builtin call),
           length (Builtin.parameters f) == length (labels call)
       ]
+
+-- | Reports a call with two arguments in the wrong order: the indices of these arguments, and the
+-- form that the call has in the right order. @types@ are the resolved types of its arguments.
+reportOrder :: OverloadedCall -> [Type] -> Form -> (Int, Int) -> Infer ()
+reportOrder call types form order = do
+  elsewhere <- decidedElsewhere [(r, t, t') | ((r, t), t') <- zip (arguments call) types]
+  mistake
+    ( Swapped
+        (callRegion call)
+        (Name (Builtin.name (builtin call)))
+        (zip (map fst (arguments call)) types)
+        (Builtin.formText (builtin call) form)
+        order
+        elsewhere
+    )
 
 -- | The word before one argument with which a call has a form; @types@ are the types of its
 -- arguments.
