@@ -117,12 +117,13 @@ checked file text = case takeExtension file of
     let result = mapErrors id Machine.toReport (Machine.read text)
     pure (Region.fromText (Text.pack file) text, sortedReports result)
   _ -> do
-    loaded <- LoadedProgram.load (Import.byName reader) file text
+    loaded <- LoadedProgram.load reader file text
     let result = Snapshot.whole (Snapshot.checkWith [] loaded)
     pure (LoadedProgram.source loaded, sortedReports result)
   where
     sortedReports result = Report.sorted (errors result <> warnings result)
-    reader name = do
+    reader = (Import.byName read') {Import.listing = listDirectory}
+    read' name = do
       exists <- doesFileExist name
       if exists then Right <$> readText name else pure (Left "there is no such file")
 

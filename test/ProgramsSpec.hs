@@ -25,7 +25,7 @@ import Report.Human qualified as Human
 import Report.Report (Report, ReportPlace (..))
 import Report.Report qualified as Report
 import Surface.Import qualified as Import
-import System.Directory (doesFileExist)
+import System.Directory (doesFileExist, listDirectory)
 import System.FilePath (takeDirectory, takeExtension, takeFileName, (-<.>), (</>))
 import Test.Hspec
 import Verify.Proof qualified as Proof
@@ -111,7 +111,7 @@ ofCommandLine file = any (`isInfixOf` file) ["Cli", "Project"]
 loadedFrom :: FilePath -> IO ([(Text, Text)], LoadedProgram)
 loadedFrom file = do
   text <- readText file
-  loaded <- LoadedProgram.load (Import.byName beside) (takeFileName file) text
+  loaded <- LoadedProgram.load reader (takeFileName file) text
   pure
     ( [ (Text.strip n, Text.drop 1 v)
         | line <- Text.lines text,
@@ -121,6 +121,7 @@ loadedFrom file = do
       loaded
     )
   where
+    reader = (Import.byName beside) {Import.listing = listDirectory . (takeDirectory file </>)}
     beside name = do
       let path = takeDirectory file </> name
       exists <- doesFileExist path

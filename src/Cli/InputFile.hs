@@ -24,7 +24,9 @@ import Cli.Outcome (failWith)
 import Cli.Output (Exit, Reporter)
 import Cli.Output qualified as Output
 import Control.Exception (IOException, try)
+import Control.Monad (filterM)
 import Data.ByteString (ByteString)
+import Data.List (sort)
 import Data.Maybe (fromMaybe)
 import Data.Text (Text)
 import Data.Text qualified as Text
@@ -34,7 +36,7 @@ import Project.LoadedProgram qualified as LoadedProgram
 import Project.MachineDescription (Descriptions)
 import Project.MachineDescription qualified as MachineDescription
 import Surface.Import qualified as Import
-import System.Directory (canonicalizePath)
+import System.Directory (canonicalizePath, doesFileExist, listDirectory)
 import System.FilePath (takeDirectory, (</>))
 
 -- | A loaded program, its name in reports, and the names and values of the parameters that the
@@ -91,7 +93,13 @@ ownFiles file input = file : imported <> concatMap asWritten described
 -- | A reader of imported files that gets their texts from @contents@. It compares files by their
 -- canonical paths, so a file with two paths is imported only once.
 readerFrom :: (FilePath -> IO (Either Text Text)) -> Import.Reader IO
-readerFrom contents = Import.Reader {Import.contents, Import.identity}
+readerFrom contents = Import.Reader {Import.contents, Import.identity, Import.listing}
+
+-- | The names of the files in a folder; none if it cannot be read.
+listing :: FilePath -> IO [FilePath]
+listing folder = do
+  names <- either (const [] :: IOException -> [FilePath]) sort <$> try (listDirectory folder)
+  filterM (doesFileExist . (folder </>)) names
 
 -- | The canonical path of a file: the same for all paths that lead to it.
 identity :: FilePath -> IO FilePath

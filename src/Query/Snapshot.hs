@@ -231,7 +231,8 @@ loadedWith now changed path text =
                   Right
                   (Map.lookup (identityOf now (Text.pack file)) texts)
               ),
-          Import.identity = Identity . Text.unpack . identityOf now . Text.pack
+          Import.identity = Identity . Text.unpack . identityOf now . Text.pack,
+          Import.listing = const (Identity [])
         }
     -- The first of several texts with the same identity counts.
     texts =

@@ -74,14 +74,16 @@ data Error
     TooLong Region Int
   | -- | parentheses with more than three values: their tokens
     ManyCoordinates Region [Token]
-  | -- | a file that cannot be imported: its name as written, the reason
-    ImportMissing Region Text Text
+  | -- | a file that cannot be imported: its name as written, the reason, and the name of a file
+    -- that may be meant
+    ImportMissing Region Text Text (Maybe Text)
   | -- | imports nested deeper than the limit: the name of the file as written, the limit
     ImportTooDeep Region Text Int
   | -- | an import of an input sheet: the name of the file as written
     ImportOfSheet Region Text
-  | -- | a table file that cannot be read: its name as written, the reason
-    LinesMissing Region Text Text
+  | -- | a table file that cannot be read: its name as written, the reason, and the name of a file
+    -- that may be meant
+    LinesMissing Region Text Text (Maybe Text)
   | -- | an import cycle: the paths of files, each of which imports the next one; the first path is
     -- also the last
     ImportCycle Region [Text]
@@ -267,11 +269,14 @@ toReport err = case err of
       { fixes = TokenFix.coordinateFixes region tokens,
         hints = ["A number has a decimal point, 59.3, and a comma separates two values."]
       }
-  LinesMissing region name why ->
+  LinesMissing region name why near ->
     (at region "E0112" ("the table " <> quote name <> " cannot be read: " <> why))
-      { hints = ["The name is looked for from the folder of the file that names it."]
+      { fixes = nearFile region near,
+        hints = ["The name is looked for from the folder of the file that names it." | null near]
       }
-  ImportMissing region name why -> notImported region name why
+  ImportMissing region name why near
+    | null near -> notImported region name why
+    | otherwise -> (notImported region name why) {fixes = nearFile region near, hints = []}
   ImportTooDeep region name limit ->
     notImported
       region
@@ -469,6 +474,14 @@ notImported region name why =
   (at region "E0112" (quote name <> " cannot be imported: " <> why))
     { hints = ["The name is looked for from the folder of the file that imports it."]
     }
+
+-- | The fix that writes the name of a file that exists.
+nearFile :: Region -> Maybe Text -> [Fix]
+nearFile region near =
+  [ Fix.exchange ("Write " <> written <> ": this file is there.") region written
+    | Just file <- [near],
+      let written = "\"" <> file <> "\""
+  ]
 
 -- | The words for an enclosure in a report.
 enclosureWords :: Enclosure -> Text

@@ -11,10 +11,12 @@ module Surface.Import
   )
 where
 
+import Base.Name qualified as Name
 import Base.Region (Located (..), Region, Source)
 import Base.Region qualified as Region
 import Base.Result (Result (..))
 import Control.Monad.State.Strict (StateT, get, gets, lift, modify', put, runStateT)
+import Data.Maybe (listToMaybe)
 import Data.Set (Set)
 import Data.Set qualified as Set
 import Data.Text (Text)
@@ -24,12 +26,14 @@ import Surface.Error (Error (..))
 import Surface.Parser qualified as Parser
 import Surface.Syntax (Lines (..), Program (..), Statement, Statement_ (..), TableLine)
 import System.FilePath
-  ( isAbsolute,
+  ( dropExtension,
+    isAbsolute,
     joinPath,
     normalise,
     splitDirectories,
     takeDirectory,
     takeExtension,
+    takeFileName,
     (</>),
   )
 
@@ -38,12 +42,14 @@ data Reader m = Reader
   { -- | the text of a file, or the reason why it cannot be read
     contents :: FilePath -> m (Either Text Text),
     -- | the identity of a file: the same result for all paths that lead to the same file
-    identity :: FilePath -> m FilePath
+    identity :: FilePath -> m FilePath,
+    -- | the names of the files in a folder; none if they are not known
+    listing :: FilePath -> m [FilePath]
   }
 
--- | A reader that treats files with different paths as different files.
+-- | A reader that treats files with different paths as different files, and knows no folders.
 byName :: Monad m => (FilePath -> m (Either Text Text)) -> Reader m
-byName contents = Reader {contents, identity = pure}
+byName contents = Reader {contents, identity = pure, listing = const (pure [])}
 
 -- | A program with its imports replaced, and the texts of all files.
 data ImportedProgram = ImportedProgram
@@ -179,7 +185,9 @@ readProgram :: Monad m => Reader m -> Chain -> ImportedFile -> StateT Progress m
 readProgram reader chain i = do
   content <- lift (contents reader (importPath i))
   case content of
-    Left reason -> failed (importRegion i) (ImportMissing (importRegion i) (importName i) reason)
+    Left reason -> do
+      near <- lift (neighbour reader (importPath i) (importName i) [".part"] (map snd (open chain)))
+      failed (importRegion i) (ImportMissing (importRegion i) (importName i) reason near)
     Right text -> do
       progress <- get
       let Result {errors, output} = Parser.parse (Region.nextOffset (texts progress)) text
@@ -208,7 +216,9 @@ tableLines ::
 tableLines reader at path name = do
   content <- lift (contents reader path)
   case content of
-    Left reason -> Nothing <$ modify' (\p -> p {found = LinesMissing at name reason : found p})
+    Left reason -> do
+      near <- lift (neighbour reader path name [".csv", ".txt"] [])
+      Nothing <$ modify' (\p -> p {found = LinesMissing at name reason near : found p})
     Right text -> do
       progress <- get
       let (errors, rows) = Csv.table (Region.nextOffset (texts progress)) text
@@ -218,6 +228,24 @@ tableLines reader at path name = do
             found = reverse errors <> found progress
           }
       pure (if null errors then Just rows else Nothing)
+
+-- | The file that may be meant by a name for which there is no file: the name of the nearest file
+-- in the same folder, written like the given name. It has the extension of the name, or else one of
+-- the given ones, the more likely ones first. It is none of the files @others@.
+neighbour :: Monad m => Reader m -> FilePath -> Text -> [String] -> [FilePath] -> m (Maybe Text)
+neighbour reader path name extensions others = do
+  listed <- listing reader (takeDirectory path)
+  let own = takeFileName path
+      files = filter (`notElem` map takeFileName others) listed
+      likely = takeExtension own : filter (/= takeExtension own) extensions
+      candidates e = [Text.pack (dropExtension f) | f <- files, takeExtension f == e]
+      near =
+        [ base <> Text.pack e
+          | e <- likely,
+            base <- take 1 (Name.nearest (Text.pack (dropExtension own)) (candidates e))
+        ]
+      folder = Text.dropEnd (length own) name
+  pure (if own `elem` files then Nothing else (folder <>) <$> listToMaybe near)
 
 -- | Records an error of an import and gives a broken statement instead of the imported definitions.
 -- A name that the import would define is then no further error: in a program with a broken
