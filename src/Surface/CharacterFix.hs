@@ -5,6 +5,7 @@
 module Surface.CharacterFix
   ( characterName,
     characterFixes,
+    signRegion,
     qualified,
     properties,
     powerFixes,
@@ -55,9 +56,9 @@ characterFixes region c around
   | c == ';' && null (after around) = [Fix.removal "Remove the semicolon." region]
   | c == ';' = [put "Begin a new line instead." "\n"]
   | c == '°' = [put "Write degrees as deg." " deg"]
-  | c == '&' = [Fix.exchange "Write and instead." (twice '&') " and "]
-  | c == '|' = [Fix.exchange "Write or instead." (twice '|') " or "]
-  | c == '!' = [put "Write not instead." "not "]
+  | c == '&' = [Fix.exchange "Write ‘and’ instead." (signRegion region c around) " and "]
+  | c == '|' = [Fix.exchange "Write ‘or’ instead." (signRegion region c around) " or "]
+  | c == '!' = [put "Write ‘not’ instead." "not "]
   | c `elem` quotationMarks = quotationFixes region around
   | c `elem` ("⌀∅" :: String) = diameterFixes region around
   | c == '^' = powersFixes region around
@@ -70,9 +71,15 @@ characterFixes region c around
   where
     put title = Fix.exchange title region
     narrowed = Text.singleton (narrow c)
-    twice sign = case following around of
-      Just t | shape t == Stray sign && attached t -> Region (start region) (end (place t))
-      _ -> region
+
+-- | The region of a character that has no place in a program, with the second character of the
+-- signs @&&@ and @||@.
+signRegion :: Region -> Char -> TokenContext -> Region
+signRegion region c around = case following around of
+  Just t
+    | c `elem` ("&|" :: String) && shape t == Stray c && attached t ->
+      Region (start region) (end (place t))
+  _ -> region
 
 quotationMarks :: String
 quotationMarks = "“”„«»‘’‚‹›'"

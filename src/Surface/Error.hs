@@ -123,7 +123,7 @@ data Enclosure
 toReport :: Error -> Report
 toReport err = case err of
   Unexpected region (FoundToken (Stray c)) _ around ->
-    (at region "E0102" (strayTitle c around))
+    (at (CharacterFix.signRegion region c around) "E0102" (strayTitle c around))
       { fixes = CharacterFix.characterFixes region c around,
         hints = strayHint c around
       }
