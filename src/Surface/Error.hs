@@ -33,7 +33,7 @@ import Surface.ForeignReport (foreignReport)
 import Surface.Keyword qualified as Keyword
 import Surface.RowFix qualified as RowFix
 import Surface.StatementForm qualified as StatementForm
-import Surface.Token (Numeral (..), Token (shape), Token_ (..), describe)
+import Surface.Token (Numeral (..), Token (attached, shape), Token_ (..), describe)
 import Surface.Token qualified as Surface
 import Surface.TokenContext (TokenContext (..))
 import Surface.TokenFix qualified as TokenFix
@@ -550,11 +550,14 @@ signTitle region token around = case (token, map shape (before around), map shap
         )
   (Symbol "=", Symbol "=" : _, _) -> Just "‘==’ is no sign of the language: equality is one ‘=’"
   (Symbol "*", Symbol "*" : _, _) -> Just "‘**’ is no sign of the language: there are no powers"
-  (Symbol "/", Symbol "/" : _, _) -> Just "‘//’ begins no comment: a comment begins with ‘--’"
+  (Symbol "/", _, Symbol "/" : _) | or (take 1 (map attached (after around))) -> Just foreignComment
+  (Symbol "/", Symbol "/" : _, _) -> Just foreignComment
   (Symbol "(", Word word : _, _)
     | TokenFix.isCallApart token region around ->
       Just ("there is a space between " <> quote word <> " and the bracket of its arguments")
   _ -> Nothing
+  where
+    foreignComment = "‘//’ begins no comment: a comment begins with ‘--’"
 
 -- | Names the letters of the other alphabet in a word that looks like a known one.
 lookAlikeHint :: Text -> [Text] -> [Text]

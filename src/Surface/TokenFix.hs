@@ -275,8 +275,7 @@ signFixes region token around = case (token, shape <$> previous around) of
   (Symbol "+", _) -> [Fix.removal "Remove the sign +." region]
   (Symbol "=", Just (Symbol "=")) -> [Fix.removal "Write one sign: a = b." region]
   (Symbol "*", Just (Symbol "*")) -> starPower
-  (Symbol "/", Just (Symbol "/")) ->
-    [Fix.exchange "Begin the comment with --." (Region (start region - 1) (end region)) "--"]
+  (Symbol "/", _) -> commentFixes region around
   (Symbol "(", _)
     | isCallApart token region around,
       Just t <- previous around ->
@@ -307,6 +306,16 @@ signFixes region token around = case (token, shape <$> previous around) of
           (Region (start (place star)) (end region))
           around {before = [base], after = [count]}
       _ -> []
+
+-- | Fixes for one of the two strokes of a comment of another language.
+commentFixes :: Region -> TokenContext -> [Fix]
+commentFixes region around = case (shape <$> previous around, following around) of
+  (Just (Symbol "/"), _) -> [begin (Region (start region - 1) (end region))]
+  (_, Just t)
+    | attached t && shape t == Symbol "/" -> [begin (Region (start region) (end (place t)))]
+  _ -> []
+  where
+    begin both = Fix.exchange "Begin the comment with --." both "--"
 
 -- | Words of an element of a contour that a number follows.
 linkWords :: [Text]
