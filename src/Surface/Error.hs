@@ -157,13 +157,19 @@ toReport err = case err of
           | hint : _ <- TokenFix.advice token around -> [hint]
         _ -> StatementForm.formHint (StatementForm.isItemStart expected) around
   Unclosed region opened what around ->
-    (at region "E0105" (enclosureWords what <> " is not closed"))
-      { label = "the closing bracket belongs before this",
-        others = [Label opened "opened here"],
-        fixes = case what of
-          BracketOf _ -> TokenFix.closingFixes region around
-          _ -> [Fix.proposed (Fix.insertion "Write } before this." (start region) "}\n")]
-      }
+    case what of
+      BracketOf bracket ->
+        (at (TokenFix.closingRegion region around) "E0105" (quote bracket <> " is not closed"))
+          { label = "the closing bracket is missing here",
+            others = [Label opened "opened here"],
+            fixes = TokenFix.closingFixes region around
+          }
+      _ ->
+        (at region "E0105" ("the ‘{’ of " <> enclosureWords what <> " has no ‘}’"))
+          { label = "the closing bracket belongs before this",
+            others = [Label opened "opened here"],
+            fixes = [TokenFix.braceFix region around]
+          }
   UnknownStatement region word known around ->
     let mends = TokenFix.statementFixes region word known around
      in (at region "E0106" ("no statement begins with " <> quote word))

@@ -6,6 +6,8 @@ module Surface.TokenFix
     trailingFixes,
     statementFixes,
     closingFixes,
+    closingRegion,
+    braceFix,
     coordinateFixes,
     misplacedFixes,
     sideFixes,
@@ -387,13 +389,33 @@ closingFor around = go [] (reverse (before around))
 closingFixes :: Region -> TokenContext -> [Fix]
 closingFixes region around =
   [ Fix.insertion
-      ("Close what is open before this: " <> Text.concat brackets)
+      ( if isLineStart around
+          then "Write " <> Text.concat brackets <> " at the end of the line."
+          else "Close what is open before this: " <> Text.concat brackets
+      )
       (maybe (start region) (end . place) (previous around))
       (Text.concat brackets)
     | not (null brackets)
   ]
   where
     brackets = closingFor around
+
+-- | The place where the brackets that are open before a region are to be closed: the end of the
+-- line above it if it begins a line, or else the region itself.
+closingRegion :: Region -> TokenContext -> Region
+closingRegion region around = case previous around of
+  Just t | isLineStart around -> Region (end (place t)) (end (place t))
+  _ -> region
+
+-- | The fix that closes the brace of a block before the statement at a region. It is a proposal if
+-- other braces are in the block, because one of them may be the one that is missing.
+braceFix :: Region -> TokenContext -> Fix
+braceFix region around
+  | isLineStart around && length braces == 1 = written
+  | otherwise = Fix.proposed written
+  where
+    written = Fix.insertion "Write } before this." (start region) "}\n"
+    braces = filter ((== Symbol "{") . shape) (before around)
 
 -- | Fixes for brackets with too many values; @tokens@ are those of the brackets.
 coordinateFixes :: Region -> [Token] -> [Fix]

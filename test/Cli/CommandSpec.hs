@@ -387,7 +387,7 @@ spec = do
       length (lines err) `shouldBe` 5
       lines err `shouldSatisfy` all ("test/programs/surface/bad/five-mistakes.part:" `isPrefixOf`)
       take 1 (lines err)
-        `shouldSatisfy` all ("part:3:1: error: ‘(’ is not closed [E0105]" `isSuffixOf`)
+        `shouldSatisfy` all ("part:2:14: error: ‘(’ is not closed [E0105]" `isSuffixOf`)
       (_, _, err') <- partc ["explain", "--format", "short", "E9999"]
       err' `shouldBe` "partc: error: no report has the code ‘E9999’ [E0809]\n"
     it "json writes one object on each line, and nothing else" $ do
