@@ -19,7 +19,7 @@ import Base.Region (Region (..))
 import Data.List (find, partition)
 import Data.List.NonEmpty (NonEmpty (..))
 import Data.List.NonEmpty qualified as NonEmpty
-import Data.Maybe (listToMaybe)
+import Data.Maybe (fromMaybe, isJust, isNothing, listToMaybe)
 import Data.Text (Text)
 import Data.Text qualified as Text
 import Report.Fix (Fix)
@@ -225,21 +225,27 @@ toReport err = case err of
     | isBroken token && token `notElem` map Stray [';', '|'] ->
       toReport (Unexpected region (FoundToken token) [] around)
   NotInRow region token around ->
-    (at region "E0120" (describe token <> " does not belong in a row of a table"))
+    (at region "E0120" (fromMaybe title (RowFix.separatorTitle token)))
       { fixes = RowFix.rowFixes region token around,
-        hints = RowFix.rowAdvice token around
+        hints = if isJust (RowFix.separatorTitle token) then [] else RowFix.rowAdvice token around
       }
+    where
+      title = describe token <> " does not belong in a row of a table"
   NotInHeadings region token around
     | isBroken token && token `notElem` map Stray [';', '|'] ->
       toReport (Unexpected region (FoundToken token) [] around)
   NotInHeadings region token around ->
-    (at region "E0120" (describe token <> " does not belong among the names of columns"))
-      { fixes =
-          if null (repairs around)
-            then RowFix.headingFixes region token around
-            else repairs around,
-        hints = if null (repairs around) then RowFix.headingAdvice token else []
+    (at region "E0120" (fromMaybe title (RowFix.separatorTitle token)))
+      { fixes = mends,
+        hints =
+          if null (repairs around) && isNothing (RowFix.separatorTitle token)
+            then RowFix.headingAdvice token
+            else []
       }
+    where
+      mends =
+        if null (repairs around) then RowFix.headingFixes region token around else repairs around
+      title = describe token <> " does not belong among the names of columns"
   NoSide region found around ->
     ( at
         (gapRegion region sides around)
@@ -402,9 +408,11 @@ merged errors = case errors of
     ([], others') -> e : merged others'
     (o : more, others') -> Repeated e (o :| more) : merged others'
   where
-    isSame a b = case (repetitionOf a, repetitionOf b) of
-      (Just k, Just l) -> k == l
-      _ -> False
+    isSame a b = case (a, b) of
+      (NotInHeadings _ s around, NotInRow _ s' around') ->
+        isJust (RowFix.separatorTitle s) && s == s' && firstOf around == firstOf around'
+      _ -> isJust (repetitionOf a) && repetitionOf a == repetitionOf b
+    firstOf around = listToMaybe (reverse (before around))
 
 -- | True if the only repair of the statement of the first error changes the place of the second.
 isMended :: Error -> Error -> Bool

@@ -6,6 +6,7 @@ module Surface.RowFix
     rowAdvice,
     headingFixes,
     headingAdvice,
+    separatorTitle,
   )
 where
 
@@ -17,7 +18,7 @@ import Data.Text qualified as Text
 import Report.Fix (Fix)
 import Report.Fix qualified as Fix
 import Surface.Keyword qualified as Keyword
-import Surface.Token (Token (..), Token_ (..), columnUnits, unitName)
+import Surface.Token (Token (..), Token_ (..), columnUnits, describe, unitName)
 import Surface.TokenContext (TokenContext (..))
 import Surface.TokenFix qualified as TokenFix
 
@@ -58,10 +59,22 @@ rowFixes region token around = case token of
     -- All wrong separators of the row at once.
     spaces =
       Fix.joined
-        "Write spaces between the values."
+        separated
         [ Fix.exchange "" r " "
           | r <- region : [place t | t <- after around, shape t == token]
         ]
+
+-- | The title of the report of a sign that separates columns in other tables. 'Nothing' for other
+-- tokens.
+separatorTitle :: Token_ -> Maybe Text
+separatorTitle token
+  | token `elem` (Symbol "," : map Stray [';', '|']) =
+    Just ("the columns of a table have spaces between them, not " <> describe token)
+  | otherwise = Nothing
+
+-- | The title of fixes that write spaces instead of other separators.
+separated :: Text
+separated = "Write spaces between the columns."
 
 -- | The tokens up to the bracket that closes the first one, or a bracket that was open before. The
 -- first argument is the count of brackets that are open.
@@ -95,7 +108,7 @@ headingFixes region token around = case token of
   _
     | isSign token ->
       [ Fix.joined
-          "Write the names with spaces between them."
+          separated
           [Fix.exchange "" r " " | r <- region : [place t | t <- after around, isSign (shape t)]]
       ]
   _ -> []
