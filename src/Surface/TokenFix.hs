@@ -63,6 +63,9 @@ advice token around = case (token, shape <$> listToMaybe (before around)) of
       [ "The elements of a contour follow one another without commas, and a point is in brackets: \
         \(0, 0)."
       ]
+  (Word word, _)
+    | Just _ <- settingOfMotion token around ->
+      ["The setting " <> word <> " belongs in the braces of mill, pocket, turn or drill."]
   (Symbol "*", Just (Symbol "*")) -> ["There are no powers: write x * x."]
   (Symbol "=", Just (Symbol "=")) -> []
   (Symbol "=", _)
@@ -173,8 +176,12 @@ cutterFix region kind =
 
 -- | Fixes for a token after a complete statement on the same line.
 trailingFixes :: Region -> Token_ -> TokenContext -> [Fix]
-trailingFixes region token around =
-  firstFixes [pointBrackets, newLines, signFixes region token around, repairs around, others]
+trailingFixes region token around = case settingOfMotion token around of
+  Just "plunge" ->
+    [Fix.exchange "Write feed: plunge belongs to mill, pocket and drill." region "feed"]
+  Just _ -> []
+  Nothing ->
+    firstFixes [pointBrackets, newLines, signFixes region token around, repairs around, others]
   where
     newLines = case token of
       Word word
@@ -204,6 +211,15 @@ trailingFixes region token around =
       Number _ _ -> True
       Symbol s -> s `elem` [",", "-"]
       _ -> False
+
+-- | The word of a setting of other statements, such as @depth@, before a number in a motion.
+settingOfMotion :: Token_ -> TokenContext -> Maybe Text
+settingOfMotion token around = case (token, shape <$> following around) of
+  (Word word, Just (Number _ _))
+    | StatementForm.blockWord around `elem` ["rapid", "move"],
+      word `elem` Text.words "plunge depth step peck allowance" ->
+      Just word
+  _ -> Nothing
 
 -- | Fixes for a word or a bracket after a number: a unit, or a product without its sign.
 afterNumberFixes :: Region -> Token_ -> TokenContext -> [Fix]
