@@ -102,7 +102,9 @@ exchanges f t = case shape t of
   _ -> []
   where
     keywords = filter isWordText (wanted f)
-    isFitting new = null keywords || new == ".." || take 1 (Text.words new) `elem` map pure keywords
+    isFitting new
+      | null keywords = not (isNameWanted f)
+      | otherwise = new == ".." || take 1 (Text.words new) `elem` map pure keywords
     put c ns =
       RepairCandidate
         [Exchange (index f) ns]
