@@ -89,8 +89,12 @@ examine set isFirst onPass pass =
     missed = if null cutting then [] else missedBy cutting
     -- A pass without motions cuts at most what the cutter touches at its start.
     isNeverCut = null cutting && any isTooMuch (missedBy [Motion.ofNoLength (entry job) level])
-    -- No motion at this height comes near an element.
-    isLeftOut = isMissing found && tool > Mm 0 && any ((> plus tool tool) . Proof.amount) tooMuch
+    -- No motion at this height comes near an element, or is on the cutter's side of one.
+    isLeftOut =
+      isMissing found
+        && ( not (any isTooMuch missed)
+               || tool > Mm 0 && any ((> plus tool tool) . Proof.amount) tooMuch
+           )
     tool = Part.radius (milling job)
     largest = Proof.deepest (missed <> strayed)
     isTooMuch w = Proof.amount w > allowedExcess

@@ -44,10 +44,12 @@ driveLimit = FrequencyLimits <$> limit <*> limit
 planning :: Gen PathControl
 planning = PathControl <$> tenths <*> elements [ExactStop, Blending]
 
+-- | Control with a feed integrator. Its clock is so fast that the jobs below need less than all of
+-- the time: each is asked for at most 1000 times a second, and takes at most 50 ticks.
 integrating :: Machine -> Gen IntegratorControl
 integrating m =
   IntegratorControl
-    <$> choose (1000, 2000000)
+    <$> choose (400000, 2000000)
     <*> choose (8, 40)
     <*> ((\r -> r {framesAhead = 1}) <$> tapeReader)
     <*> tenths
