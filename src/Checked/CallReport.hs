@@ -67,11 +67,15 @@ argumentCountReport region name wanted given call fixes =
         ["It is called as " <> name <> "(" <> Text.intercalate ", " wanted <> ")."],
       others = [Label r "defined here" | Just r <- [definition call]],
       fixes,
-      hints = ["Add " <> ErrorFix.joinedWords missing <> ": " <> added | null fixes, isWritten]
+      hints =
+        [ "Write the value of " <> ErrorFix.joinedWords missing <> " in place of …: " <> added
+          | null fixes,
+            isWritten
+        ]
     }
   where
     missing = drop (length given) wanted
-    added = name <> "(" <> Text.intercalate ", " (writtenArguments call <> missing) <> ")"
+    added = name <> "(" <> Text.intercalate ", " (writtenArguments call <> map (const "…") missing) <> ")"
     isWritten = not (null missing) && length (writtenArguments call) == length given
 
 -- | The report of two arguments, with the given indices, in the wrong order. @form@ is the call in

@@ -76,7 +76,7 @@ listFixesAt statements whole lists = case (inner, drills) of
     drills = [(s, es) | s@(Located _ (Drill (Located r (List es)) _ _)) <- everything, r == whole]
     isList e = region e `elem` map fst lists
     grouped = NonEmpty.groupBy (\a b -> not (isList a) && not (isList b))
-    drillsAt groups = Text.intercalate ", " ["drill at " <> shown es <> " …" | es <- groups]
+    drillsAt groups = Text.intercalate " and " ["drill at " <> shown es <> " …" | es <- groups]
     shown es = case NonEmpty.toList es of
       [e] -> oneLine e
       several -> "[" <> Text.intercalate ", " (map oneLine several) <> "]"

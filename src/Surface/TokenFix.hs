@@ -430,7 +430,7 @@ braceFix region around
   | isLineStart around && length braces == 1 = written
   | otherwise = Fix.proposed written
   where
-    written = Fix.insertion "Write } before this." (start region) "}\n"
+    written = Fix.insertion "Write } on a line before this." (start region) "}\n"
     braces = filter ((== Symbol "{") . shape) (before around)
 
 -- | Fixes for brackets with too many values; @tokens@ are those of the brackets.
