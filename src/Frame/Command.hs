@@ -121,12 +121,12 @@ spindleSpeed c = case c of
 speedWarnings :: Region -> Command -> CommandWord -> [Warning]
 speedWarnings region c CommandWord {value} = case (value, spindleSpeed c) of
   (Step table, Just asked) ->
-    [ SpindleSpeedDiffers region asked obtained
+    [ SpindleSpeedDiffers region asked obtained (Just (minimum table, maximum table))
       | Just (_, obtained) <- [nearestStep table asked],
         differs asked obtained
     ]
   (Argument, Just asked)
-    | differs asked (whole asked) -> [SpindleSpeedDiffers region asked (whole asked)]
+    | differs asked (whole asked) -> [SpindleSpeedDiffers region asked (whole asked) Nothing]
   _ -> []
   where
     whole asked = fromIntegral (round asked :: Int)

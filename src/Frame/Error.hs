@@ -74,8 +74,9 @@ data Warning
     HeightUncertain Region
   | -- | a command for which the machine has no word, so that the operator has to carry it out
     ManualCommand Region CommandKind
-  | -- | spindle speeds in turns per minute: the one asked for, and the one that the machine gives
-    SpindleSpeedDiffers Region Double Double
+  | -- | spindle speeds in turns per minute: the one asked for, the one that the machine gives, and
+    -- the lowest and the highest that it has, if it has a table of them
+    SpindleSpeedDiffers Region Double Double (Maybe (Double, Double))
   | -- | a spindle command without the speed that its word needs
     SpindleSpeedMissing Region
   | -- | frames between two feed moves that are not read in time, so that the machine stands still:
@@ -374,7 +375,7 @@ warningReport machine warning = case warning of
               not (null (Machine.auxiliary (Machine.commandWords machine)))
           ]
       }
-  SpindleSpeedDiffers region asked given ->
+  SpindleSpeedDiffers region asked given range ->
     ( report
         Report.Warning
         "W0505"
@@ -385,7 +386,14 @@ warningReport machine warning = case warning of
           [ "The program asks for "
               <> turns asked
               <> ", and the machine has no speed nearer to it."
-          ],
+          ]
+            <> [ "Its speeds go from "
+                   <> Decimal.short 1 low
+                   <> " to "
+                   <> Decimal.short 1 high
+                   <> " turns a minute."
+                 | Just (low, high) <- [range]
+               ],
         hints = ["Write " <> Decimal.short 1 given <> " rpm, if this speed is meant."]
       }
   SpindleSpeedMissing region ->

@@ -105,7 +105,7 @@ warningReport warning = case warning of
       region
       p
       z
-      (Label named "not cleared yet inside this contour")
+      (Label named "not cleared down to there inside this contour")
       ("The inside of " <> text contour <> " is not cleared")
       "let the cutter plunge at a feed"
   RapidIntoHole region p z hole ->
