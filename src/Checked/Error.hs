@@ -78,7 +78,7 @@ data Error
     ListAmongItems
       Region
       (Maybe Type)
-      [(Region, Type)]
+      (NonEmpty (Region, Type))
       (Maybe (Region, Type))
       (Maybe Text)
       [Fix]

@@ -31,6 +31,7 @@ import Checked.Type qualified as Type
 import Data.Char (isDigit)
 import Data.Foldable (toList)
 import Data.List (find, sortOn)
+import Data.List.NonEmpty qualified as NonEmpty
 import Data.Maybe (fromMaybe, isJust, isNothing, listToMaybe, mapMaybe, maybeToList)
 import Data.Ord (Down (..))
 import Data.Set (Set)
@@ -202,8 +203,8 @@ completed statements e = case e of
   Mismatch at wanted found elsewhere _ ->
     Mismatch at wanted found elsewhere (termAt statements at)
   ListAmongItems at needed lists single _ _ ->
-    let first = mapMaybe written (concatMap (termsAt statements . fst) (take 1 lists))
-        found = ListError.listFixesAt statements at lists
+    let first = mapMaybe written (termsAt statements (fst (NonEmpty.head lists)))
+        found = ListError.listFixesAt statements at (NonEmpty.toList lists)
      in ListAmongItems at needed lists single (listToMaybe first) found
   Disagree at operator left right elsewhere _ ->
     Disagree at operator left right elsewhere $

@@ -10,6 +10,7 @@ where
 import Base.Region (Located (..), Region (..))
 import Checked.Type (Type)
 import Checked.Type qualified as Type
+import Data.List.NonEmpty (NonEmpty (..))
 import Data.List.NonEmpty qualified as NonEmpty
 import Data.Text (Text)
 import Data.Text qualified as Text
@@ -23,22 +24,25 @@ import Surface.SyntaxWalk qualified as SyntaxWalk
 -- | The report of the items @lists@ of a list that are lists themselves: the type that the place of
 -- the list needs of each item, an item that is no list, and the first of @lists@ as it is written.
 listReport ::
-  Maybe Type -> [(Region, Type)] -> Maybe (Region, Type) -> Maybe Text -> [Fix] -> Report
-listReport needed lists single written fixes = case lists of
-  [] -> at (Region 0 0) "E0205" "a list is an item of a list"
-  (region, t) : more ->
-    (at region "E0205" (title (maybe "this" quote written) t))
-      { label = Type.describe t,
-        others = [Label r (Type.describe t') | (r, t') <- more <> maybe [] pure single],
-        fixes,
-        hints =
-          [ "Lists cannot be joined to one list: use them, and the other items, one after the \
-            \other."
-            | null fixes
-          ]
-      }
+  Maybe Type ->
+  NonEmpty (Region, Type) ->
+  Maybe (Region, Type) ->
+  Maybe Text ->
+  [Fix] ->
+  Report
+listReport needed ((first, t) :| more) single written fixes =
+  (at first "E0205" (title (maybe "this" quote written)))
+    { label = Type.describe t,
+      others = [Label r (Type.describe t') | (r, t') <- more <> maybe [] pure single],
+      fixes,
+      hints =
+        [ "Lists cannot be joined to one list: use them, and the other items, one after the \
+          \other."
+          | null fixes
+        ]
+    }
   where
-    title name t = case needed of
+    title name = case needed of
       Just item ->
         "each item of this list has to be " <> Type.describe item <> ", but " <> name <> " is "
           <> Type.describe t

@@ -148,7 +148,7 @@ descriptionReport at' file DescriptionText {base, text} reports =
   )
     { others = concat [maybe [] (pure . label) base | label <- labels],
       message =
-        concat [lineOf file text r | r <- first, isNothing base || null labels]
+        concat [lineOf file text r | isNothing base || null labels, r <- first]
           <> map (inOneLine file text) (drop 1 shown)
           <> ["The same is wrong at more places." | length shown < length reports],
       hints = nub (concatMap Report.remedies shown)
@@ -159,8 +159,8 @@ descriptionReport at' file DescriptionText {base, text} reports =
     labels =
       [ \offset -> Label (Region (offset + from) (offset + to)) words'
         | r <- first,
-          InSource (Region from to) <- [place r],
-          let words' = if Text.null (Report.label r) then "here" else Report.label r
+          let words' = if Text.null (Report.label r) then "here" else Report.label r,
+          InSource (Region from to) <- [place r]
       ]
 
 -- | The line of a description to which a report points, with its number.

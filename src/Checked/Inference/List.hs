@@ -12,6 +12,7 @@ import Checked.Inference qualified as Inference
 import Checked.Type (Type)
 import Checked.Type qualified as Type
 import Control.Applicative ((<|>))
+import Data.List.NonEmpty qualified as NonEmpty
 import Data.Maybe (listToMaybe)
 
 -- | Reports the items of a list that are lists of what each item has to be. @needed@ is the type
@@ -23,10 +24,10 @@ areFlat at needed items = do
   let single = listToMaybe [item | item <- found, isSingle (snd item)]
       wanted = needed <|> (snd <$> single)
       lists = [(r, t) | (r, t@(Type.ListOf _)) <- found, maybe False (isListOf t) wanted]
-  case lists of
-    [] -> pure True
-    _ -> do
-      Inference.mistake (ListAmongItems at needed lists single Nothing [])
+  case NonEmpty.nonEmpty lists of
+    Nothing -> pure True
+    Just some -> do
+      Inference.mistake (ListAmongItems at needed some single Nothing [])
       pure False
   where
     isListOf t item = case t of
