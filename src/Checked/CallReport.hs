@@ -75,7 +75,8 @@ argumentCountReport region name wanted given call fixes =
     }
   where
     missing = drop (length given) wanted
-    added = name <> "(" <> Text.intercalate ", " (writtenArguments call <> map (const "…") missing) <> ")"
+    added = name <> "(" <> Text.intercalate ", " completed <> ")"
+    completed = writtenArguments call <> map (const "…") missing
     isWritten = not (null missing) && length (writtenArguments call) == length given
 
 -- | The report of two arguments, with the given indices, in the wrong order. @form@ is the call in

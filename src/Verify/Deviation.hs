@@ -90,12 +90,7 @@ examine set isFirst onPass pass =
     -- A pass without motions cuts at most what the cutter touches at its start.
     isNeverCut = null cutting && any isTooMuch (missedBy [Motion.ofNoLength (entry job) level])
     -- No motion at this height comes near an element, or is on the cutter's side of one.
-    isLeftOut =
-      isMissing found
-        && ( not (any isTooMuch missed)
-               || tool > Mm 0 && any ((> plus tool tool) . Proof.amount) tooMuch
-           )
-    tool = Part.radius (milling job)
+    isLeftOut = isMissing found && (not (any isTooMuch missed) || any (isOutOfReach job) tooMuch)
     largest = Proof.deepest (missed <> strayed)
     isTooMuch w = Proof.amount w > allowedExcess
     tooMuch
@@ -117,6 +112,12 @@ examine set isFirst onPass pass =
         <> excessFindings allowedExcess tooMuch largest
         <> maybeToList (wrongSide scan)
         <> [neverBegun pass | isNeverCut || isLeftOut]
+
+-- | True of an excess of more than the cutter's diameter, for a cutter with a diameter.
+isOutOfReach :: MillingJob -> Witness -> Bool
+isOutOfReach job w = tool > Mm 0 && Proof.amount w > plus tool tool
+  where
+    tool = Part.radius (milling job)
 
 -- | Finding for the @gouges@ that are deeper than @allowed@; empty if there are none. The finding
 -- names the first such gouge of the list, and @deepest@.
