@@ -37,8 +37,11 @@ spec = do
   it
     "a digit changed to another legal one is found, with the number of its frame; if the path \
     \leaves the band, a deviation is found as well"
-    $ [(n, f, findings p) | (n, f, fs) <- changes, let p = proofOf fs, not (isFound n f p)]
-      `shouldBe` []
+    $ property $
+      withMaxSuccess 4000 $
+        forAllBlind (elements changes) $ \(n, f, fs) ->
+          let p = proofOf fs
+           in counterexample (show (n, f, findings p)) (isFound n f p)
   it "a changed speed code is a wrong feed in its frame" $
     [ (n, s)
       | (n, f) <- zip [1 ..] Flange.frames,
