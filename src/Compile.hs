@@ -41,6 +41,7 @@ import Base.Result
     thenSound,
     warned,
   )
+import Checked.BareNumber qualified as BareNumber
 import Checked.Error qualified as Checked
 import Checked.FromSurface qualified as Checked
 import Checked.Syntax qualified as Checked
@@ -68,6 +69,7 @@ import Report.Report (Report (code, others), ReportPlace (..))
 import Report.Report qualified as Report
 import Surface.Error qualified as Surface
 import Surface.Parameter qualified as Surface
+import Surface.Syntax qualified as Surface
 import Tape.Punch qualified as Tape
 import Tape.Tape (Tape)
 import Toolpath.Error qualified as Toolpath
@@ -101,8 +103,15 @@ evaluate values loaded = do
   checked <-
     withoutEchoes (source loaded) (errors (surface loaded)) $
       mapErrors id (located . Checked.toReport) (Checked.check assigned)
+  warned
+    ( BareNumber.besideInches
+        fileOf
+        (BareNumber.typesOfNames (Checked.mentions checked))
+        (Surface.statements written)
+    )
   (checked,) <$> mapErrors id (located . partReport) (Part.evaluate checked)
   where
+    fileOf at = file (Region.position (source loaded) (Region.start at))
     -- Only users of input sheets know the control stops of the Minsk-22 system.
     partReport
       | isSheet loaded = Report.withControlStop . Part.toReport
