@@ -2,7 +2,8 @@
 -- number on the tape that means a feed or a step of the spindle; a table gives its value, perhaps
 -- by a formula.
 module Machine.FeedFromText
-  ( feeds,
+  ( WrittenFeeds (..),
+    feeds,
     braking,
     table,
     checkFeeds,
@@ -15,7 +16,7 @@ import Base.Result (Result)
 import Base.Result qualified as Result
 import Data.Map.Strict (Map)
 import Data.Map.Strict qualified as Map
-import Data.Maybe (catMaybes)
+import Data.Maybe (catMaybes, fromMaybe, listToMaybe)
 import Data.Text qualified as Text
 import Machine.Error (Error (..), TableFault (..))
 import Machine.Machine
@@ -87,10 +88,28 @@ repetitions given =
 longestRange :: Int
 longestRange = 10000
 
+-- | The feeds of a description, and the codes at the ends of the lines of their table, with the
+-- regions of these codes.
+data WrittenFeeds = WrittenFeeds {feedsOf :: Feeds, lastCodes :: [Located Int]}
+
 -- | Reads the section @feeds@.
-feeds :: Statement -> Result w Error Feeds
+feeds :: Statement -> Result w Error WrittenFeeds
 feeds s = do
   ((), section) <- withBlock ["feeds { … }"] "the feeds" noArguments s
+  (`WrittenFeeds` lastCodesIn section) <$> feedsIn section
+
+-- | The codes at the ends of the lines of the table in the section @feeds@.
+lastCodesIn :: DescriptionSection -> [Located Int]
+lastCodesIn section =
+  [ Located (region (key line)) code
+    | s <- entries section,
+      keyWord s == Just "table",
+      line <- concat (block s),
+      Just (_, code) <- [codesOf line]
+  ]
+
+feedsIn :: DescriptionSection -> Result w Error Feeds
+feedsIn section =
   Feeds
     <$> required "measure" "measure mm/min" measureFrom section
     <*> codesFrom section
@@ -149,10 +168,11 @@ braking s = do
 -- | Checks that the code of rapid moves is a feed code, that the feed word can hold the largest
 -- code, and that the machine has the feed at the end of braking. @wordCapacity@ is the largest
 -- code that the feed word can hold; 'Nothing' if frames have no feed word.
-checkFeeds :: Located Feeds -> Located Braking -> Maybe Int -> [Error]
-checkFeeds (Located feedsRegion f) (Located brakingRegion b) wordCapacity =
+checkFeeds :: Located WrittenFeeds -> Located Braking -> Maybe Int -> [Error]
+checkFeeds (Located feedsRegion written) (Located brakingRegion b) wordCapacity =
   rapidFaults <> capacityFaults <> brakingFaults
   where
+    WrittenFeeds {feedsOf = f, lastCodes} = written
     rapidFaults =
       [BadTable feedsRegion (NoSuchCode n) | ByCode (FeedCode n) <- [rapidFeed f], not (isCode n)]
     isCode n = case codes f of
@@ -162,9 +182,11 @@ checkFeeds (Located feedsRegion f) (Located brakingRegion b) wordCapacity =
       Listed t -> maybe 0 (\(FeedCode n, _) -> n) (Map.lookupMax t)
       Direct _ z -> z
     capacityFaults =
-      [ BadTable feedsRegion (CodeTooLarge highest most)
+      [ BadTable tooLarge (CodeTooLarge highest most)
         | Just most <- [wordCapacity],
-          highest > most
+          highest > most,
+          let found = [r | Located r n <- lastCodes, n > most]
+              tooLarge = fromMaybe feedsRegion (listToMaybe found)
       ]
     values = case codes f of
       Listed t -> Map.elems t
