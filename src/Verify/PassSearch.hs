@@ -207,10 +207,11 @@ untilExit job motions
     (leaving, away) = span staysAtEntry motions
     (along, back) = break (endsAtExit job) away
     (staying, later) = span staysAtExit (unbroken back)
+    cut = along <> staying
     again
       | isPartialCut job || null later = []
       | MillingJob.isClosed job =
-        if goThereAndBack job (along <> staying) then untilExit job later else []
+        if not (null cut) && goThereAndBack job cut then untilExit job later else []
       | otherwise = dropWhileEnd (not . endsAtExit job) (besideFrom job later)
     staysAtExit m = endsAtExit job m && not (isLeaving job m)
     staysAtEntry m =
