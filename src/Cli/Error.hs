@@ -15,7 +15,7 @@ import Base.Decimal qualified as Decimal
 import Data.Text (Text)
 import Data.Text qualified as Text
 import Machine.BuiltIn qualified as BuiltIn
-import Machine.Controller (Controller (..))
+import Machine.Controller qualified as Controller
 import Machine.Machine (MachineName (..))
 import Machine.Machine qualified as Machine
 import Pulse.FramePath (AskedFeed, feedText, roundedDown)
@@ -237,10 +237,10 @@ warningReport warning = case warning of
 
 -- | The names of the built-in machines whose controllers make pulses.
 pulseMachines :: [Text]
-pulseMachines = [name | m <- BuiltIn.machines, makesPulses m, let MachineName name = Machine.name m]
-  where
-    makesPulses m = case Machine.controller m of
-      Just (Stepping _) -> True
-      Just (Integrating _) -> True
-      Just (Planning _) -> False
-      Nothing -> False
+pulseMachines =
+  [ name
+    | m <- BuiltIn.machines,
+      Just control <- [Machine.controller m],
+      Controller.makesPulses control,
+      let MachineName name = Machine.name m
+  ]

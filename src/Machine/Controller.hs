@@ -21,6 +21,7 @@ module Machine.Controller
     jobFor,
     requestInterval,
     ticksIn,
+    makesPulses,
     capacity,
   )
 where
@@ -39,6 +40,13 @@ data Controller
   | -- | no pulses: only the times of motions are modelled
     Planning PathControl
   deriving stock (Eq, Show)
+
+-- | True if the model of a controller makes pulses in time.
+makesPulses :: Controller -> Bool
+makesPulses control = case control of
+  Stepping _ -> True
+  Integrating _ -> True
+  Planning _ -> False
 
 -- | Control that makes pulses of one frame after the other and does nothing else.
 data StepControl = StepControl

@@ -20,6 +20,7 @@ import Machine.Controller
     IntegratorControl (driveLimits),
     InterpolationMethod (..),
     StepControl (stepLimits),
+    makesPulses,
   )
 import Machine.Machine (FeedCode (..), Machine, MachineName (..))
 import Machine.Machine qualified as Machine
@@ -122,13 +123,7 @@ examples = describe "the pulses of the examples are proven" $ do
 
 -- | Machines whose controllers make pulses.
 pulsing :: [Machine]
-pulsing = [m | m <- Machines.known, makesPulses m]
-  where
-    makesPulses m = case Machine.controller m of
-      Just (Stepping _) -> True
-      Just (Integrating _) -> True
-      Just (Planning _) -> False
-      Nothing -> False
+pulsing = filter (maybe False makesPulses . Machine.controller) Machines.known
 
 nameOf :: Machine -> String
 nameOf machine = let MachineName n = Machine.name machine in show n
