@@ -85,6 +85,7 @@ senseSign t = case t of
 senseOf :: Rad -> Sense
 senseOf (Rad sweep) = if sweep > 0 then CounterClockwise else Clockwise
 
+-- | The opposite sense.
 oppositeSense :: Sense -> Sense
 oppositeSense t = case t of
   Clockwise -> CounterClockwise

@@ -108,6 +108,7 @@ lastCodesIn section =
       Just (_, code) <- [codesOf line]
   ]
 
+-- | Reads the lines of the section @feeds@.
 feedsIn :: DescriptionSection -> Result w Error Feeds
 feedsIn section =
   Feeds

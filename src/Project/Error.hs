@@ -13,7 +13,6 @@ import Base.Region (Position (..), Region (..))
 import Base.Region qualified as Region
 import Data.Function (on)
 import Data.List (nub, nubBy)
-import Data.Maybe (isNothing)
 import Data.Text (Text)
 import Data.Text qualified as Text
 import Project.MachineDescription (DescriptionText (..))
@@ -146,9 +145,9 @@ descriptionReport at' file DescriptionText {base, text} reports =
           <> Text.concat [": " <> title r | r <- first]
       )
   )
-    { others = concat [maybe [] (pure . label) base | label <- labels],
+    { others = pointed,
       message =
-        concat [lineOf file text r | isNothing base || null labels, r <- first]
+        concat [lineOf file text r | null pointed, r <- first]
           <> map (inOneLine file text) (drop 1 shown)
           <> ["The same is wrong at more places." | length shown < length reports],
       hints = nub (concatMap Report.remedies shown)
@@ -156,10 +155,11 @@ descriptionReport at' file DescriptionText {base, text} reports =
   where
     shown = nubBy ((==) `on` title) (Report.sorted reports)
     first = take 1 shown
-    labels =
-      [ \offset -> Label (Region (offset + from) (offset + to)) words'
-        | r <- first,
-          let words' = if Text.null (Report.label r) then "here" else Report.label r,
+    pointed =
+      [ Label (Region (offset + from) (offset + to)) (if Text.null words' then "here" else words')
+        | Just offset <- [base],
+          r <- first,
+          let words' = Report.label r,
           InSource (Region from to) <- [place r]
       ]
 
