@@ -42,7 +42,7 @@ NPM_CI := $(NPM) ci --ignore-scripts --no-audit --no-fund
 banner = @printf '== %s\n' '$(1)'
 quietly = @bash scripts/quietly.sh
 
-.PHONY: mutants pictures tree-sitter-test editors-test client-test vsix vscode-test help setup build test check format format-check lint commits bench demo install deb dist deb-try clean
+.PHONY: mutants pictures tree-sitter-test editors-test controls-test client-test vsix vscode-test help setup build test check format format-check lint commits bench demo install deb dist deb-try clean
 
 help: ## this list
 	@printf 'make demo|test|...\n\n'
@@ -66,7 +66,7 @@ test: needs-build needs-test ## build and run all tests; TEST='--match WORD' run
 	$(call banner,test)
 	@$(TESTED) --verbosity warn test $(UNOPTIMISED) --test-arguments '$(TEST)'
 
-check: needs-build needs-test format-check lint commits ## everything a change must pass: format, lint, commits, warnings, tests
+check: needs-build needs-test format-check lint commits controls-test ## everything a change must pass: format, lint, commits, checkers, warnings, tests
 	$(call banner,build with warnings as errors)
 	$(quietly) $(CHECK) build --flag partc:werror --test --no-run-tests
 	$(call banner,test)
@@ -114,6 +114,10 @@ tree-sitter-test: build ## test the grammar for tree-sitter; needs tree-sitter-c
 editors-test: build ## try the editors that are installed, each with the language server
 	$(call banner,editors)
 	@bash scripts/editors-try.sh "$(PARTC)"
+
+controls-test: needs-test ## test the checkers of G-code for GRBL, Marlin and LinuxCNC
+	$(call banner,controls)
+	@python3 -B -m unittest discover -s test/controls
 
 demo: build ## compile, prove, report and draw an example part
 	@mkdir -p build
