@@ -25,11 +25,13 @@ module Compile
     Punched (..),
     prove,
     proveTape,
+    proveGcode,
+    gcodeReports,
     provePulses,
   )
 where
 
-import Base.Region (Position (..), Source)
+import Base.Region (Position (..), Region (Region), Source)
 import Base.Region qualified as Region
 import Base.Result
   ( Result (..),
@@ -49,11 +51,21 @@ import Control.CompensationCheck qualified as CompensationCheck
 import Control.Monad (when)
 import Data.Set qualified as Set
 import Data.Text (Text)
+import Data.Text qualified as Text
+import Data.Text.Encoding qualified as Encoding
 import Frame.Error qualified as Frame
 import Frame.Frame (FrameProgram)
 import Frame.Frame qualified as Frame
 import Frame.FromToolpath qualified as Frame
-import Machine.Machine (Machine)
+import Gcode.FaultReport qualified as FaultReport
+import Gcode.Heading (Heading)
+import Gcode.Heading qualified as Heading
+import Gcode.Requirement qualified as Requirement
+import Gcode.ToFrames (Reading)
+import Gcode.Writer (ToolFile)
+import Gcode.Writer qualified as Writer
+import Machine.Machine (Machine, ProgramForm)
+import Machine.Machine qualified as Machine
 import Part.ContourStart qualified as ContourStart
 import Part.Error qualified as Part
 import Part.FromChecked qualified as Part
@@ -65,16 +77,18 @@ import Pulse.Controller (Console (..))
 import Pulse.Controller qualified as Controller
 import Pulse.FrameCompensation qualified as FrameCompensation
 import Pulse.ReaderDwell qualified as ReaderDwell
-import Report.Report (Report (code, others), ReportPlace (..))
+import Report.Report (Report (code, others, place), ReportPlace (..))
 import Report.Report qualified as Report
 import Surface.Error qualified as Surface
 import Surface.Parameter qualified as Surface
 import Surface.Syntax qualified as Surface
 import Tape.Punch qualified as Tape
-import Tape.Tape (Tape)
+import Tape.Tape (Tape (..))
 import Toolpath.Error qualified as Toolpath
 import Toolpath.FromPart qualified as Toolpath
 import Toolpath.Toolpath (Toolpath, isCompensated, withoutCuts)
+import Verify.ControlState qualified as ControlState
+import Verify.FromGcode qualified as FromGcode
 import Verify.FromPulses qualified as FromPulses
 import Verify.FromTape qualified as Verify
 import Verify.Proof (Proof)
@@ -196,7 +210,48 @@ data Compiled = Compiled
 -- | Makes the tape for one machine (Toolpath → Frame → Tape). If the job asks for verification,
 -- reads the tape back and proves it (Control → Verify).
 makeTape :: Verification -> Toolpath -> Machine -> Result Report Report Compiled
-makeTape verification path machine =
+makeTape verification path machine
+  | Just form <- Machine.programForm machine = makeFiles form verification path machine
+  | otherwise = makePunched verification path machine
+
+-- | Makes the files for a modern control (Toolpath → Frame → Gcode). If the job asks for
+-- verification, the proof of the frames shows how far the control may leave the path at corners;
+-- the files are then read back, and have to give the same frames in a safe state.
+makeFiles :: ProgramForm -> Verification -> Toolpath -> Machine -> Result Report Report Compiled
+makeFiles form verification path machine =
+  toolpath `seq` do
+    punched <- punch machine path
+    when (null (Frame.plannedFrames (program punched))) (failed (Project.toReport Project.NothingToPunch))
+    case verification of
+      Unverified -> pure Compiled {machine, toolpath, punched, proof = Nothing}
+      Verified -> do
+        let frames = map Frame.frame (Frame.plannedFrames (program punched))
+        onPath <- prove machine toolpath (program punched) frames
+        let bound = FromGcode.blendingBound machine onPath
+            written = withFiles (Writer.write machine form heading bound (program punched)) (program punched)
+        proof <- proveFiles machine form (Heading.fromToolpath path) (program punched) onPath (map Writer.fileText (files written))
+        pure Compiled {machine, toolpath, punched = written, proof = Just proof}
+  where
+    toolpath = withoutCuts path
+    heading = Heading.fromToolpath path
+
+-- | Proof of files that the compiler has written. @onPath@ is the proof of their frames.
+proveFiles :: Machine -> ProgramForm -> Heading -> FrameProgram -> Proof -> [Text] -> Result Report Report Proof
+proveFiles machine form heading program onPath texts =
+  case FromGcode.readTexts machine form heading (Frame.start program) texts of
+    Left fault -> failed (inFile (FaultReport.toReport (\_ _ -> Region 0 0) fault))
+    Right reading
+      | FromGcode.framesRead reading /= map Frame.frame (Frame.plannedFrames program) ->
+        failed (Tape.toReport (Tape.Damage 1 Nothing Nothing Tape.Misread))
+      | otherwise ->
+        let proof = FromGcode.judged machine form heading reading onPath
+         in failing (map inFile (gcodeReports machine form (const (Region 0 0)) proof)) proof
+  where
+    inFile r = r {place = InFile, others = []}
+
+-- | Makes the tape that a machine without such a form reads.
+makePunched :: Verification -> Toolpath -> Machine -> Result Report Report Compiled
+makePunched verification path machine =
   -- @toolpath@ is evaluated before the frames are made. Unevaluated, it would keep all cutting
   -- moves in memory; now each of them is freed as soon as its frames are made.
   toolpath `seq` do
@@ -228,7 +283,13 @@ readerWarning machine Punched {program, tape} =
     frames = Tape.readInTurn machine begin tape
 
 -- | The frames of a toolpath for one machine, and the tape that contains these frames.
-data Punched = Punched {program :: FrameProgram, tape :: Tape}
+data Punched = Punched
+  { program :: FrameProgram,
+    -- | the tape; for a modern control all its files, one after the other
+    tape :: Tape,
+    -- | the files for a modern control; empty for other machines
+    files :: [ToolFile]
+  }
 
 -- | Makes the frames and the tape of a toolpath (Toolpath → Frame → Tape). The tape is lazy, so no
 -- row of it is made before it is needed. Refuses frames with cutter compensation that a control
@@ -242,10 +303,24 @@ punch machine path =
     let frames = map Frame.frame (Frame.plannedFrames program)
     -- The frames of a program without compensation need not be in memory as a whole.
     when compensated (noneOf (CompensationCheck.reports machine program))
-    pure Punched {program, tape = Tape.write machine (Frame.start program) frames}
+    case Machine.programForm machine of
+      Nothing -> pure Punched {program, tape = Tape.write machine (Frame.start program) frames, files = []}
+      Just form -> do
+        noneOf (Requirement.refusals machine form heading path program)
+        pure (withFiles (Writer.write machine form heading Nothing program) program)
   where
+    heading = Heading.fromToolpath path
     compensated = isCompensated path
     noneOf refused = if null refused then pure () else Result [] refused Nothing
+
+-- | Frames with the files that contain them.
+withFiles :: [ToolFile] -> FrameProgram -> Punched
+withFiles files program =
+  Punched
+    { program,
+      tape = Tape (Encoding.encodeUtf8 (Text.concat (map Writer.fileText files))),
+      files
+    }
 
 -- | Runs the frames of a tape on the controller model and compares the motions with the part (Frame
 -- → Control → Verify). The errors of the result are the findings: all that the proof has found
@@ -259,14 +334,33 @@ prove machine toolpath program frames = failing (Proof.toReports machine proof) 
 -- program leaves open may begin anywhere on it ('ContourStart.isFree'). @part@ is the evaluated
 -- program. It is needed only if the tape begins a contour elsewhere than the compiler would.
 proveTape :: Maybe Part -> Compiled -> [Frame.Frame] -> Result Report Report Proof
-proveTape part Compiled {machine, toolpath, punched} frames =
+proveTape part compiled@Compiled {machine} frames =
   failing (Proof.toReports machine proof) proof
   where
-    proof = Verify.proveFromAnyStart replanned machine toolpath (program punched) frames
+    proof = fromAnyStart part compiled frames
+
+fromAnyStart :: Maybe Part -> Compiled -> [Frame.Frame] -> Proof
+fromAnyStart part Compiled {machine, toolpath, punched} =
+  Verify.proveFromAnyStart replanned machine toolpath (program punched)
+  where
     replanned starts = do
       path <- ifSound . Toolpath.toToolpath =<< ContourStart.moved starts =<< part
       Punched {program} <- ifSound (punch machine path)
       pure (withoutCuts path, program)
+
+-- | Proves files of G-code that may come from elsewhere, as 'proveTape' does, and judges the state of
+-- the control in them.
+proveGcode :: ProgramForm -> Maybe Part -> Compiled -> Reading -> Proof
+proveGcode form part compiled@Compiled {machine, toolpath} reading =
+  FromGcode.judged machine form (Heading.fromToolpath toolpath) reading (fromAnyStart part compiled frames)
+  where
+    frames = FromGcode.framesRead reading
+
+-- | Reports of the proof of a file. @lineRegion@ gives the region of a line of the file.
+gcodeReports :: Machine -> ProgramForm -> (Int -> Region) -> Proof -> [Report]
+gcodeReports machine form lineRegion proof =
+  map (ControlState.toReport form lineRegion) (Proof.controlFindings proof)
+    <> Proof.toReports machine proof
 
 -- | Runs a tape on the controller of the machine and compares its pulses with the motions of the
 -- frames (Tape → Pulse → Verify). The errors of the result are the findings. 'Nothing' if the

@@ -60,12 +60,13 @@ table =
     Layer Folder "Machine" (Only ["Base", "Report"]),
     Layer Folder "Frame" (Only ["Toolpath", "Machine"]),
     Layer Folder "Tape" (Only ["Frame", "Machine"]),
+    Layer Folder "Gcode" (Only ["Frame", "Machine"]),
     Layer Folder "Control" (Only ["Frame", "Machine"]),
     Layer Folder "Pulse" (Only ["Control", "Tape"]),
     Layer Folder "Verify" Above,
     Layer Folder "Draw" Above,
     Layer Folder "Project" (Only ["Sheet", "Toolpath", "Machine"]),
-    Layer Single "Compile" (Only ["Project", "Tape", "Control", "Verify"]),
+    Layer Single "Compile" (Only ["Project", "Tape", "Gcode", "Control", "Verify"]),
     Layer
       Folder
       "Query"

@@ -16,6 +16,8 @@ import Cli.FixCommand qualified as FixCommand
 import Cli.ForeignTape qualified as ForeignTape
 import Cli.Formatter qualified as Formatter
 import Cli.FrameTable qualified as FrameTable
+import Cli.GcodeFile (GcodeFile (GcodeFile))
+import Cli.GcodeFile qualified as GcodeFile
 import Cli.InputFile
   ( Input (..),
     descriptionsFor,
@@ -39,12 +41,13 @@ import Cli.Progress qualified as Progress
 import Cli.ProofTable qualified as ProofTable
 import Cli.PulseProofTable qualified as PulseProofTable
 import Cli.RunCommand qualified as RunCommand
+import Cli.TapeDifference qualified as TapeDifference
 import Cli.TapeInput (onFirstMachine, withTapeFile)
 import Compile (Compiled (Compiled), Punched (..))
 import Compile qualified
 import Control.Exception (evaluate)
 import Data.List.NonEmpty qualified as NonEmpty
-import Data.Maybe (maybeToList)
+import Data.Maybe (isJust, maybeToList)
 import Data.Text (Text)
 import Data.Text qualified as Text
 import Draw.Plot qualified as Plot
@@ -52,7 +55,7 @@ import Draw.TapeRows qualified as TapeRows
 import Frame.Frame (Frame)
 import Frame.Frame qualified as Frame
 import Machine.BuiltIn qualified as BuiltIn
-import Machine.Machine (Machine, MachineName (..))
+import Machine.Machine (Machine, MachineName (..), ProgramForm)
 import Machine.Machine qualified as Machine
 import Project.Error qualified as Project
 import Project.Job (Job (verification), Verification (..))
@@ -147,6 +150,15 @@ verify reporter file target tapeFile withPulses =
     settled reporter given (withContents foreignTape (onFirstMachine target given)) $
       \(compiled, found) -> case found of
         Left e -> failWith reporter (tapeName given) e
+        Right (rows, _)
+          | not withPulses,
+            Just form <- Machine.programForm (Compile.machine compiled) ->
+            verifyGcode
+              reporter
+              given
+              form
+              (GcodeFile (tapeName given) (TapeDifference.textOf rows))
+              compiled
         Right (rows, contents) ->
           withPulseProof given compiled rows $
             verifyTape reporter given (ForeignTape.TapeFile (tapeName given) rows contents) compiled
@@ -177,8 +189,28 @@ verify reporter file target tapeFile withPulses =
 
 -- | The frames of a tape that should be the one of a program.
 readTape :: Compiled -> Tape -> Either Damage [Frame]
-readTape Compiled {Compile.machine, Compile.punched} =
-  Tape.readExpected machine (Frame.start (program punched)) (framesOf punched)
+readTape Compiled {Compile.machine, Compile.punched}
+  -- A file of G-code is read by 'verifyGcode'.
+  | isJust (Machine.programForm machine) = const (Right [])
+  | otherwise = Tape.readExpected machine (Frame.start (program punched)) (framesOf punched)
+
+-- | Reads a file of G-code, compares its motions with the part, judges the state of the control, and
+-- prints the proof.
+verifyGcode :: Reporter -> Input -> ProgramForm -> GcodeFile -> Compiled -> IO Exit
+verifyGcode reporter given form file compiled = case GcodeFile.read form compiled file of
+  Left (text, fault) ->
+    Failed <$ Output.showReports reporter (GcodeFile.fileName file) text [fault]
+  Right reading -> do
+    let proof = Compile.proveGcode form part compiled reading
+        (texts, wrong) = GcodeFile.reports form compiled file (source given) reading proof
+    Progress.during
+      ("proving " <> GcodeFile.fileName file)
+      (evaluated (Result.failing wrong proof))
+    exit <- printResult reporter (ProofTable.proof (Compile.machine compiled) proof)
+    _ <- Output.showReports reporter (name given) texts wrong
+    pure (if null wrong then exit else Disproven)
+  where
+    part = snd <$> output (Compile.evaluate (values given) (loaded given))
 
 -- | Compares the frames that are read from a tape with the part and prints the proof, and the proof
 -- of the pulses if there is one. @compiled@ has the toolpath and the frames that the tape should

@@ -13,7 +13,7 @@ module Frame.Instruction
 where
 
 import Base.Quantity (Feed, Mm (..), minus)
-import Base.Region (Located (..), Region)
+import Base.Region (Located (..), Region (..))
 import Data.List (mapAccumL, zipWith4)
 import Data.List.NonEmpty (NonEmpty (..))
 import Data.List.NonEmpty qualified as NonEmpty
@@ -22,12 +22,15 @@ import Frame.ChordError (ChordTolerance (..))
 import Frame.ChordError qualified as ChordError
 import Frame.Command (Translation)
 import Frame.Command qualified as Command
+import Frame.CommandState (CommandState)
+import Frame.CommandState qualified as CommandState
 import Frame.Frame (Role (..))
 import Frame.Passage (Walls)
 import Frame.Passage qualified as Passage
 import Frame.Rounding qualified as Rounding
 import Geometry.Segment qualified as Segment
 import Machine.Machine (Machine)
+import Machine.Machine qualified as Machine
 import Part.Part (Milling)
 import Part.Part qualified as Part
 import Toolpath.Toolpath (Block, Move (..), Sent, Toolpath, heights, pace)
@@ -60,17 +63,35 @@ data FeedMode
 
 -- | Instructions for a toolpath, in the order of the toolpath.
 instructions :: Machine -> Toolpath -> [Instruction]
-instructions machine path =
-  concat
-    ( zipWith4
-        (ofBlock machine)
-        [0 ..]
-        (Toolpath.passNumbers blocks)
-        (wallsOf blocks)
-        blocks
-    )
+instructions machine path = concat (arranged (zip blocks ofBlocks))
   where
     blocks = Toolpath.blocks path
+    ofBlocks = zipWith4 (ofBlock machine) [0 ..] (Toolpath.passNumbers blocks) (wallsOf blocks) blocks
+    arranged = case Machine.programForm machine of
+      Just _ -> byState machine (CommandState.initial, CommandState.initial)
+      Nothing -> map snd
+
+-- | Instructions of the blocks with commands in one form: what has changed since the last move
+-- ("Frame.CommandState"). @states@ are the states at the last move and now.
+byState :: Machine -> (CommandState, CommandState) -> [(Block, [Instruction])] -> [[Instruction]]
+byState machine states@(before, now) list = case list of
+  [] -> []
+  (Toolpath.Commanding c, reported) : more
+    | Part.Auxiliary _ <- value c -> reported : byState machine states more
+    | otherwise -> onlyReports reported : byState machine (before, after (value c)) more
+  (block, made) : more
+    | null (Toolpath.moves block) -> made : byState machine states more
+    | otherwise -> (switched block <> made) : byState machine (now, now) more
+  where
+    after = CommandState.after now
+    switched block =
+      [ Words (originOf block) (Command.Translation ws [] [])
+        | ws <- CommandState.between machine before now
+      ]
+    originOf block = case Toolpath.moves block of
+      m : _ -> Toolpath.origin m
+      [] -> Region 0 0
+    onlyReports made = [Words r t {Command.numbers = []} | Words r t <- made]
 
 -- | Walls beside the passes of a toolpath, for each block. The passes of a statement share them.
 wallsOf :: [Block] -> [Walls]

@@ -34,6 +34,7 @@ import Machine.FrameFromText qualified as FrameFromText
 import Machine.Machine hiding (value)
 import Machine.Parser (Parsed (..))
 import Machine.Parser qualified as Parser
+import Machine.ProgramFromText qualified as ProgramFromText
 import Machine.Provenance qualified as Provenance
 import Machine.Section
 import Machine.Syntax (Argument_ (..), Statement (..), keyWord)
@@ -70,7 +71,7 @@ machineFrom text ss = marked *> machine
         <*> sections whole
         <* allowKeys
           ( Text.words
-              "machine tape code arcs frame feeds braking commands limits controller"
+              "machine tape code arcs frame feeds braking commands limits controller program"
           )
           ["axis"]
           whole
@@ -86,7 +87,8 @@ data Sections = Sections
     locatedBraking :: Located Braking,
     commandContext :: CommandFromText.CommandContext,
     programLimits :: Limits,
-    locatedController :: Maybe (Located Controller)
+    locatedController :: Maybe (Located Controller),
+    locatedProgramForm :: Maybe (Located ProgramForm)
   }
 
 assemble :: [DescribedValue] -> (Text, Text) -> Sections -> Machine
@@ -107,6 +109,7 @@ sections whole =
       <*> optional "commands" CommandFromText.noCommands CommandFromText.commands whole
       <*> optional "limits" (Limits Nothing) limitsFrom whole
       <*> optional "controller" Nothing (fmap Just . located ControllerFromText.controller) whole
+      <*> optional "program" Nothing (fmap Just . located ProgramFromText.programForm) whole
   )
     >>= crossChecked
   where
@@ -145,6 +148,10 @@ crossChecked s = Result.failing faults s
           concat
             [ ControllerFromText.check machine r c
               | Located r c <- maybeToList (locatedController s)
+            ],
+          concat
+            [ ProgramFromText.check machine r form
+              | Located r form <- maybeToList (locatedProgramForm s)
             ]
         ]
     feedCapacity = (\w -> 10 ^ digits (form w) - 1) <$> wordFor machine FeedWord
@@ -178,6 +185,7 @@ machineOf s =
       commandWords = CommandFromText.allWords (commandContext s),
       limits = programLimits s,
       controller = value <$> locatedController s,
+      programForm = value <$> locatedProgramForm s,
       describedValues = []
     }
 

@@ -84,6 +84,9 @@ module Machine.Machine
     -- * The controller
     Controller (..),
 
+    -- * Programs for modern controls
+    ProgramForm (..),
+
     -- * Provenance
     DescribedValue (..),
     Provenance (..),
@@ -139,6 +142,7 @@ import Machine.FrameLayout
     capacityOf,
     contentName,
   )
+import Machine.ProgramForm (ProgramForm (..))
 import Machine.TapeCode (Medium (..), Spare (..), TapeCode (..))
 
 -- | Name by which a part program or a command line chooses a machine.
@@ -164,6 +168,8 @@ data Machine = Machine
     limits :: Limits,
     -- | Nothing if the description does not say how the controller makes pulses
     controller :: Maybe Controller,
+    -- | Nothing for a tape that consists of its frames only
+    programForm :: Maybe ProgramForm,
     -- | all values of the description, for the list of their provenance
     describedValues :: [DescribedValue]
   }

@@ -98,7 +98,8 @@ summarized isRestarted subject contourProofs findings =
       Proof.closure = closureOf isRestarted subject,
       Proof.largestIncrement = TapeSummary.largestIncrement (summary subject),
       Proof.firstDifference = TapeSummary.firstDifference (summary subject),
-      Proof.findings = sortOn Proof.tapeOrder findings
+      Proof.findings = sortOn Proof.tapeOrder findings,
+      Proof.controlFindings = []
     }
 
 -- | Proof by comparison of all motions with the part.

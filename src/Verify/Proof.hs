@@ -33,8 +33,9 @@ import Geometry.Vec (Point)
 import Geometry.Vec qualified as Vec
 import Machine.Machine (CommandName (..), FeedCode (..), Machine, RotaryAxis)
 import Machine.Machine qualified as Machine
-import Report.Report (Report (label, message), ReportPlace (..), report)
+import Report.Report (Report (hints, label, message), ReportPlace (..), report)
 import Report.Report qualified as Report
+import Verify.ControlState (ControlFinding)
 
 -- | Witness of a deviation from the part: how large the deviation is, and where.
 data Witness = Witness
@@ -90,7 +91,9 @@ data Proof = Proof
     -- does
     firstDifference :: Maybe Int,
     -- | in the order of the tape; empty if the tape is proven
-    findings :: [Finding]
+    findings :: [Finding],
+    -- | faults of the state of a modern control; empty for a tape
+    controlFindings :: [ControlFinding]
   }
   deriving stock (Eq, Show)
 
@@ -139,6 +142,9 @@ data Finding
   | -- | The cutter is too fast at the end of a frame to slow down for the frames after it: the
     -- frame, the speed there, the largest speed that is possible there.
     TooFast Int Feed Feed
+  | -- | The control may leave a contour by more than is allowed: the contour, what the path mode
+    -- allows, the deviation of the path, and what is allowed in all.
+    LeavesPath Region Mm Mm Mm
   | -- | The tape does not end where it has to: its last position minus the required one, in pulses.
     NotClosed Pulses3
   deriving stock (Eq, Show)
@@ -164,6 +170,7 @@ tapeOrder finding = case finding of
   TooFast n _ _ -> (n, 6)
   WrongCommand n _ _ _ -> (n, 7)
   Refused refusal -> (refusedFrame refusal, 8)
+  LeavesPath {} -> (0, 8)
   NotClosed _ -> (maxBound, 9)
 
 -- | Test that a finding means that the cutter leaves a contour or a pocket. A wrong last position
@@ -187,6 +194,7 @@ isOffContour finding = case finding of
   WrongCommand {} -> False
   TooFast {} -> False
   Refused _ -> False
+  LeavesPath {} -> False
   NotClosed {} -> False
 
 -- | Speed of a frame: the feed code, or rapid if @rapidly@ is true. If @braking@ is true, it is the
@@ -209,7 +217,7 @@ data Refusal
 
 -- | Test that a tape has no findings.
 isProven :: Proof -> Bool
-isProven = null . findings
+isProven proof = null (findings proof) && null (controlFindings proof)
 
 -- | Reports of all findings, in their order.
 toReports :: Machine -> Proof -> [Report]
@@ -374,6 +382,23 @@ toReport machine finding = case finding of
               <> Decimal.short 2 may
               <> " mm/min there."
           ]
+      }
+  LeavesPath region p found allowed ->
+    ( wrong
+        "E0733"
+        (InSource region)
+        "the control may leave this contour by more than the tolerance"
+    )
+      { message =
+          [ "The path mode lets it leave the path by "
+              <> micro p
+              <> ". The path itself deviates by "
+              <> micro found
+              <> ", and "
+              <> micro allowed
+              <> " is allowed in all: the tolerance and one pulse."
+          ],
+        hints = ["Write a smaller P after G64, with Q0, or write G61."]
       }
   NotClosed (Pulses3 x y z) ->
     wrong

@@ -121,6 +121,7 @@ blankMachine forms arcKind how feedTable =
       Machine.commandWords = noCommandWords,
       limits = Limits Nothing,
       controller = Nothing,
+      programForm = Nothing,
       describedValues = []
     }
 

@@ -1,0 +1,71 @@
+-- | State that the commands of a program have switched: tool, spindle and coolant.
+--
+-- For a modern control only this state at each move counts, not the commands that lead to it. So
+-- its frames have the commands in one form: between two moves the tool, then the spindle, then the
+-- coolant, each only if it changes. The frames that are read from a file get the same form, so both
+-- can be compared.
+module Frame.CommandState
+  ( CommandState (..),
+    initial,
+    after,
+    between,
+  )
+where
+
+import Machine.Machine (CommandName, CommandValue (..), CommandWord (..), CommandWords (..), Machine)
+import Machine.Machine qualified as Machine
+import Part.Part (Command (..), Sense (..), Switch (..))
+
+-- | Tool, spindle and coolant.
+data CommandState = CommandState
+  { -- | number of the tool; Nothing for the first tool of a program
+    tool :: Maybe Int,
+    -- | sense and speed in turns per minute; Nothing while the spindle is off
+    spindle :: Maybe (Sense, Maybe Int),
+    coolantRuns :: Bool
+  }
+  deriving stock (Eq, Show)
+
+-- | State at the beginning of a program.
+initial :: CommandState
+initial = CommandState {tool = Nothing, spindle = Nothing, coolantRuns = False}
+
+-- | State after a command. A change of the tool stops the spindle.
+after :: CommandState -> Command -> CommandState
+after state command = case command of
+  SpindleOn sense speed -> state {spindle = Just (sense, round <$> speed)}
+  SpindleOff -> state {spindle = Nothing}
+  CoolantTo SwitchOn -> state {coolantRuns = True}
+  CoolantTo SwitchOff -> state {coolantRuns = False}
+  ChangeTool n _ -> state {tool = Just n, spindle = Nothing}
+  Auxiliary _ -> state
+
+-- | Words of a machine that lead from one state to another, in one group for each command.
+between :: Machine -> CommandState -> CommandState -> [[(CommandName, Int)]]
+between machine before now =
+  filter
+    (not . null)
+    [ if tool before == tool now then [] else numbers (tool now) (toolChange table),
+      if hasChanged then spindleNumbers else [],
+      if coolantRuns before == coolantRuns now then [] else coolantNumbers
+    ]
+  where
+    table = Machine.commandWords machine
+    -- A change of the tool stops the spindle.
+    spindleBefore = if tool before == tool now then spindle before else Nothing
+    hasChanged = spindleBefore /= spindle now
+    spindleNumbers = case spindle now of
+      Just (Clockwise, speed) -> numbers speed (spindleClockwise table)
+      Just (CounterClockwise, speed) -> numbers speed (spindleCounterClockwise table)
+      Nothing -> numbers Nothing (spindleOff table)
+    coolantNumbers = numbers Nothing ((if coolantRuns now then coolantOn else coolantOff) table)
+
+-- | Words with their numbers. @argument@ is the number of the tool or the speed.
+numbers :: Maybe Int -> [CommandWord] -> [(CommandName, Int)]
+numbers argument ws = [(commandName w, n) | w <- ws, Just n <- [numberOf (value w)]]
+  where
+    numberOf v = case v of
+      Fixed n -> Just n
+      Argument -> argument
+      Step _ -> Nothing
+      Diameter -> Nothing

@@ -1,0 +1,145 @@
+-- | Modal state of a modern control: everything that stays in force from line to line.
+--
+-- A control keeps most of its state from the program before. So at the beginning of a file every
+-- part of the state is 'Unset', except what the control does not let a program choose.
+module Gcode.ModalState
+  ( ModalState (..),
+    Modal (..),
+    valueOf,
+    lineOf,
+    Units (..),
+    Plane (..),
+    Distances (..),
+    FeedMode (..),
+    MotionMode (..),
+    Spindle (..),
+    ToolLength (..),
+    Coolant (..),
+    PathMode (..),
+    initial,
+  )
+where
+
+import Base.Quantity (Mm)
+import Geometry.Carrier (Sense)
+import Machine.ProgramForm (Dialect (..))
+
+-- | Part of the state. 'SetAt' has the number of the line that set it; 0 if the control does not
+-- let a program choose it.
+data Modal a = Unset | SetAt Int a
+  deriving stock (Eq, Show)
+
+-- | Value of a part of the state; Nothing if no line has set it.
+valueOf :: Modal a -> Maybe a
+valueOf part = case part of
+  Unset -> Nothing
+  SetAt _ a -> Just a
+
+-- | Number of the line that set a part of the state; Nothing if no line has.
+lineOf :: Modal a -> Maybe Int
+lineOf part = case part of
+  SetAt n _ | n > 0 -> Just n
+  _ -> Nothing
+
+data Units = Millimetres | Inches
+  deriving stock (Eq, Show)
+
+-- | Plane of arcs, by the letters of its axes.
+data Plane = PlaneXY | PlaneZX | PlaneYZ
+  deriving stock (Eq, Show)
+
+-- | Meaning of positions, or of the centres of arcs.
+data Distances = Absolute | Incremental
+  deriving stock (Eq, Show)
+
+data FeedMode = PerMinute | PerTurn | InverseTime
+  deriving stock (Eq, Show)
+
+-- | Kind of motion of a line with words of axes.
+data MotionMode = RapidMode | LinearMode | ArcMode Sense
+  deriving stock (Eq, Show)
+
+-- | Spindle: off, or turning in a sense.
+data Spindle = SpindleStopped | SpindleTurning Sense
+  deriving stock (Eq, Show)
+
+-- | Length of the tool that the control takes into account: none, or that of an entry of the tool
+-- table. A change of the tool makes the length 'LengthOfOther': that of the tool before.
+data ToolLength = NoLength | LengthOf Int | LengthOfOther
+  deriving stock (Eq, Show)
+
+data Coolant = CoolantOff | CoolantRunning
+  deriving stock (Eq, Show)
+
+-- | How a control follows the path at corners: exactly, or with a deviation of at most so many mm;
+-- Nothing if the deviation has no bound.
+data PathMode = ExactPath | Blended (Maybe Mm)
+  deriving stock (Eq, Show)
+
+-- | State of a control. A speed is in turns per minute, a feed in mm per minute or per turn.
+data ModalState = ModalState
+  { motionMode :: Modal MotionMode,
+    units :: Modal Units,
+    plane :: Modal Plane,
+    distances :: Modal Distances,
+    arcCentres :: Modal Distances,
+    feedMode :: Modal FeedMode,
+    feed :: Modal Double,
+    -- | number of the work offset, 54 to 59
+    workOffset :: Modal Int,
+    -- | number of the tool that the next change puts into the spindle
+    selectedTool :: Modal Int,
+    -- | number of the tool in the spindle
+    toolInSpindle :: Modal Int,
+    toolLength :: Modal ToolLength,
+    spindle :: Modal Spindle,
+    speed :: Modal Double,
+    coolant :: Modal Coolant,
+    pathMode :: Modal PathMode,
+    -- | true if the words of X are diameters (G7), false if they are radii (G8)
+    diameters :: Modal Bool,
+    -- | true while the control computes the path of the cutter's centre (G41, G42)
+    compensates :: Modal Bool
+  }
+  deriving stock (Eq, Show)
+
+-- | State before the first line of a file.
+initial :: Dialect -> ModalState
+initial dialect =
+  ModalState
+    { motionMode = Unset,
+      units = Unset,
+      plane = Unset,
+      distances = Unset,
+      arcCentres = case dialect of
+        LinuxCnc -> Unset
+        Grbl -> fixed Incremental
+        Marlin -> fixed Incremental
+        Fanuc -> fixed Incremental,
+      feedMode = if dialect == Marlin then fixed PerMinute else Unset,
+      feed = Unset,
+      workOffset = Unset,
+      selectedTool = Unset,
+      toolInSpindle = Unset,
+      toolLength = Unset,
+      spindle = Unset,
+      speed = Unset,
+      coolant = Unset,
+      pathMode = case dialect of
+        LinuxCnc -> Unset
+        Fanuc -> Unset
+        Grbl -> fixed ExactPath
+        Marlin -> fixed ExactPath,
+      diameters = case dialect of
+        LinuxCnc -> Unset
+        Grbl -> fixed False
+        Marlin -> fixed False
+        Fanuc -> fixed False,
+      compensates = case dialect of
+        LinuxCnc -> Unset
+        Fanuc -> Unset
+        Grbl -> fixed False
+        Marlin -> fixed False
+    }
+  where
+    fixed = SetAt 0

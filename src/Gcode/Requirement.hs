@@ -1,0 +1,158 @@
+-- | What a program has to say before a file for a modern control can be written: the file is run
+-- unseen, so nothing may depend on what the machine happens to do.
+module Gcode.Requirement
+  ( refusals,
+  )
+where
+
+import Base.Decimal qualified as Decimal
+import Base.PulseVector (Pulses3)
+import Base.Quantity (Mm (..))
+import Base.Region (Located (..), Region)
+import Data.List (find, mapAccumL)
+import Data.Maybe (isNothing, mapMaybe)
+import Data.Text (Text)
+import Frame.CommandState (CommandState)
+import Frame.CommandState qualified as CommandState
+import Frame.Frame (FrameProgram (FrameProgram), PlannedFrame (frame))
+import Frame.Frame qualified as Frame
+import Gcode.Heading (Heading (..))
+import Gcode.Writer qualified as Writer
+import Machine.Machine (Machine, MachineName (..), ProgramForm (..))
+import Machine.Machine qualified as Machine
+import Machine.ProgramForm (Retract (..))
+import Machine.ProgramForm qualified as ProgramForm
+import Part.Part qualified as Part
+import Report.Report (Report (hints, label, message), at)
+import Toolpath.Toolpath (Block, Toolpath (..))
+import Toolpath.Toolpath qualified as Toolpath
+
+-- | Errors of a program for a machine with this form of programs.
+refusals :: Machine -> ProgramForm -> Heading -> Toolpath -> FrameProgram -> [Report]
+refusals machine form heading path program =
+  spindleErrors machine heading path
+    <> [withoutHeights machine path | Toolpath.isFlat path && not (Toolpath.isTurned path)]
+    <> toolErrors machine form heading path
+    <> safeErrors machine form heading path
+    <> lowStart machine path program
+
+machineName :: Machine -> Text
+machineName machine = let MachineName n = Machine.name machine in n
+
+-- | Error at the first cut for which the program does not say that the spindle turns, or how fast.
+spindleErrors :: Machine -> Heading -> Toolpath -> [Report]
+spindleErrors machine heading path
+  | isSpindleByHand heading = []
+  | otherwise = case mapMaybe notTurning (zip (statesAt (blocks path)) (blocks path)) of
+    first : _ -> [first]
+    [] -> []
+  where
+    notTurning (state, block) = case CommandState.spindle state of
+      Nothing -> missing "the spindle is off at this cut" <$> cutOf block
+      Just (_, Nothing) -> missing "the spindle has no speed at this cut" <$> cutOf block
+      Just (_, Just _) -> Nothing
+    missing title region =
+      (at region "E0510" title)
+        { label = "this cuts",
+          message =
+            [machineName machine <> " starts the spindle by the program. A cut without it breaks the tool."],
+          hints =
+            [ "Write ‘spindle cw 8000 rpm’ before it, with the right speed.",
+              "Write ‘spindle manual’ if the spindle is switched by hand."
+            ]
+        }
+
+-- | State of tool, spindle and coolant in each block.
+statesAt :: [Block] -> [CommandState]
+statesAt = snd . mapAccumL step CommandState.initial
+  where
+    step state block = case block of
+      Toolpath.Commanding (Located _ c) -> let new = CommandState.after state c in (new, new)
+      _ -> (state, state)
+
+-- | Region of the statement of a block that cuts; Nothing for a block of rapid moves and for a
+-- command.
+cutOf :: Block -> Maybe Region
+cutOf block = case block of
+  Toolpath.Cutting {Toolpath.job = Located region _} -> Just region
+  Toolpath.Clearing {Toolpath.pocket = Located region _} -> Just region
+  Toolpath.Holing (Located region _) _ -> Just region
+  Toolpath.Travelling _ _ ms -> Toolpath.origin <$> find ((/= Part.Rapid) . Toolpath.pace) ms
+  Toolpath.Commanding _ -> Nothing
+
+-- | Error of a program that never changes the height.
+withoutHeights :: Machine -> Toolpath -> Report
+withoutHeights machine path =
+  (at (region (start path)) "E0511" "the program has no heights")
+    { message =
+        [ "All its moves are at the height of its start. "
+            <> machineName machine
+            <> " moves z by the program, so the tool would cut from the first move on."
+        ],
+      hints =
+        [ "Write ‘clearance 5’ before the machining, and ‘depth 8’ in each ‘mill’, with the right \
+          \heights."
+        ]
+    }
+
+-- | Error of a program whose first tool has no number.
+toolErrors :: Machine -> ProgramForm -> Heading -> Toolpath -> [Report]
+toolErrors machine form heading path =
+  [ (at (region (start path)) "E0513" "the first tool has no number")
+      { message =
+          [machineName machine <> " takes the length of each tool from its tool table, by the number."],
+        hints = ["Write the number in the statement ‘tool’, as in ‘tool 1 mill(diameter 8)’."]
+      }
+    | ProgramForm.changesTools (dialect form),
+      isNothing (firstTool heading)
+  ]
+
+-- | Error of a program without a safe height, on a control that needs one.
+safeErrors :: Machine -> ProgramForm -> Heading -> Toolpath -> [Report]
+safeErrors machine form heading path =
+  [ (at (region (start path)) "E0514" "the program states no safe height")
+      { message =
+          [ machineName machine
+              <> " does not know where its z axis stands. So the tool first goes to a height that \
+                 \is above everything."
+          ],
+        hints = ["Write ‘safe 40’ with a height above all clamps."]
+      }
+    | retract form == SafeHeight,
+      isNothing (safeHeight heading)
+  ]
+
+-- | Error of a program at whose start the tool would come down below the clearance height.
+lowStart :: Machine -> Toolpath -> FrameProgram -> [Report]
+lowStart machine path program = case clearances (blocks path) of
+  heights@(_ : _)
+    | down < maximum heights ->
+      [ (at (region (start path)) "E0512" "the program begins below its clearance height")
+          { label = "at the height " <> Decimal.mm down,
+            message =
+              [ "The tool comes down to this height first. The clearance height is "
+                  <> Decimal.mm (maximum heights)
+                  <> "."
+              ],
+            hints = ["Give the start a height, as in ‘from (0, 0, 20)’."]
+          }
+      ]
+  _ -> []
+  where
+    down = Frame.height machine (landingOf program)
+
+-- | Position in pulses at which the tool comes down first.
+landingOf :: FrameProgram -> Pulses3
+landingOf (FrameProgram begin planned) = fst (Writer.landing begin (map frame planned))
+
+-- | Clearance heights of the machining statements.
+clearances :: [Block] -> [Mm]
+clearances = concatMap heightsOf
+  where
+    heightsOf block = case block of
+      Toolpath.Cutting {Toolpath.job = Located _ job} -> milling job
+      Toolpath.Clearing {Toolpath.pocket = Located _ p} -> milling (Part.wall p)
+      Toolpath.Holing (Located _ d) _ -> [Part.travelHeight d]
+      Toolpath.Travelling {} -> []
+      Toolpath.Commanding _ -> []
+    milling job = maybe [] pure (Part.clearance job)

@@ -1,0 +1,453 @@
+-- | Runs the lines of a G-code file: each motion and each command, with the state of the control.
+--
+-- The words of a line act in the order of the RS274/NGC interpreter (Kramer, Proctor and Messina,
+-- NISTIR 6556, table 8), whatever their order in the line. A line that the control would not take,
+-- or whose motion cannot be known, is a fault.
+--
+-- Positions are whole picometres (10^-9 mm) along the axes of the control, so decimal numbers in mm
+-- and in inches are exact.
+module Gcode.Run
+  ( Step (..),
+    Action (..),
+    Travel (..),
+    Place (..),
+    Coordinate (..),
+    run,
+    picometres,
+  )
+where
+
+import Base.Quantity (Mm (..), Seconds (..))
+import Control.Monad (foldM, forM_, unless, when)
+import Data.Maybe (fromMaybe, isJust, listToMaybe, mapMaybe)
+import Data.Text (Text)
+import Data.Text qualified as Text
+import Gcode.Block
+import Gcode.Dialect
+import Gcode.ModalState
+import Geometry.Carrier (Sense (..))
+import Machine.ProgramForm (Dialect (..), ProgramForm (..), Retract (..))
+
+-- | One action, with the state in which it happens.
+data Step = Step
+  { -- | number of the line, from 1
+    line :: Int,
+    state :: ModalState,
+    action :: Action
+  }
+  deriving stock (Eq, Show)
+
+data Action
+  = Travels Travel
+  | -- | the control takes the tool with this number; Nothing if no T word came before
+    Changes (Maybe Int)
+  | Dwells Seconds
+  | -- | M0
+    Stops
+  | -- | M1
+    StopsOnDemand
+  | -- | M2 or M30
+    Ends
+  deriving stock (Eq, Show)
+
+-- | A motion.
+data Travel = Travel
+  { mode :: MotionMode,
+    from :: Place,
+    to :: Place,
+    -- | centre of an arc in its plane, by the two axes of the plane in the order x y or z x
+    about :: Maybe (Int, Int)
+  }
+  deriving stock (Eq, Show)
+
+-- | Position of the tool, along the axes X, Y and Z of the control.
+data Place = Place {placeX :: Coordinate, placeY :: Coordinate, placeZ :: Coordinate}
+  deriving stock (Eq, Show)
+
+-- | Position along one axis.
+data Coordinate
+  = -- | unknown: where the machine stands, or a position in machine coordinates
+    Anywhere
+  | -- | the retract height, above everything
+    Retracted
+  | -- | in work coordinates, in picometres
+    At Int
+  deriving stock (Eq, Show)
+
+-- | State between two lines.
+data Running = Running {modal :: ModalState, place :: Place, isEnded :: Bool}
+
+-- | Actions of a file in order; a fault for the first line that is not understood.
+run :: ProgramForm -> Text -> Either Fault [Step]
+run form text = do
+  lines' <- blocks text
+  when (null lines') (Left (Fault 1 1 NoWords))
+  checkLengths form text
+  (_, steps) <- foldM next (begin, []) lines'
+  pure (concat (reverse steps))
+  where
+    begin = Running (initial (dialect form)) (Place Anywhere Anywhere Anywhere) False
+    next (now, done) b = do
+      (now', steps) <- runBlock form now b
+      pure (now', steps : done)
+
+-- | Refuses lines that are longer than the control reads.
+checkLengths :: ProgramForm -> Text -> Either Fault ()
+checkLengths form text = case filter (isTooLong . snd) (zip [1 ..] (Text.lines text)) of
+  (n, _) : _ -> Left (Fault n (mostCharacters form + 1) (LineTooLong (mostCharacters form)))
+  [] -> Right ()
+  where
+    isTooLong l = Text.length (Text.dropWhileEnd (== '\r') l) > mostCharacters form
+
+-- | Words of a line, sorted by what they do.
+data Sorted = Sorted
+  { block :: Block,
+    -- | the numbers of the G words and of the M words, in tenths
+    gCodes :: [Int],
+    mCodes :: [Int],
+    -- | the words of all other letters
+    others :: [GcodeWord]
+  }
+
+-- | Runs one line.
+runBlock :: ProgramForm -> Running -> Block -> Either Fault (Running, [Step])
+runBlock form now b = do
+  s <- sorted form b
+  when (isEnded now && not (null (gcodeWords b))) (faultAt b 1 BehindEnd)
+  before <- modesBefore s (modal now)
+  (changed, changeSteps) <- toolChange s now {modal = before}
+  let running = modesBehind s changed
+  dwelt <- dwellOf form s
+  (moved, motionSteps) <- motionOf form s running
+  let stopSteps =
+        [stop' | 0 <- mCodes s, let stop' = step moved Stops]
+          <> [step moved StopsOnDemand | 10 <- mCodes s]
+          <> [step moved Ends | m <- mCodes s, m `elem` [20, 300]]
+      ended = isEnded moved || any (`elem` [20, 300]) (mCodes s)
+  pure
+    ( moved {isEnded = ended},
+      changeSteps <> [step running (Dwells t) | Just t <- [dwelt]] <> motionSteps <> stopSteps
+    )
+  where
+    step r = Step (lineNumber b) (modal r)
+
+-- | Sorts the words of a line, and refuses words that the control does not have, and repetitions.
+sorted :: ProgramForm -> Block -> Either Fault Sorted
+sorted form b = do
+  gs <- codes 'G' (gKnowledge (dialect form)) groupOfG
+  ms <- codes 'M' (mKnowledge (dialect form)) groupOfM
+  let others = [w | w <- gcodeWords b, letter w `notElem` ("GMN" :: String)]
+  forM_ (gcodeWords b) $ \w ->
+    unless (letter w `elem` letters (dialect form)) (faultOf b w (UnknownWord (wordText w)))
+  forM_ (zip [0 ..] others) $ \(k, w) ->
+    when
+      (letter w `elem` map letter (take k others))
+      (faultOf b w (RepeatedWord (Text.singleton (letter w))))
+  pure Sorted {block = b, gCodes = gs, mCodes = ms, others}
+  where
+    codes c knowledge group = do
+      let found = [w | w <- gcodeWords b, letter w == c]
+      numbers <- traverse (code knowledge) found
+      forM_ (zip3 [0 ..] found numbers) $ \(k, w, n) ->
+        when
+          (group n `elem` map group (take k numbers) && group n > 0 || n `elem` take k numbers)
+          (faultOf b w (RepeatedWord (wordText w)))
+      pure numbers
+    code knowledge w = case isWhole (tenfold (number w)) of
+      Just n -> case knowledge n of
+        Known -> Right n
+        Unproven -> faultOf b w (UnprovenWord (wordText w))
+        Absent -> faultOf b w (UnknownWord (wordText w))
+      Nothing -> faultOf b w (UnknownWord (wordText w))
+    tenfold (Number d k) = Number (10 * d) k
+
+faultAt :: Block -> Int -> FaultReason -> Either Fault a
+faultAt b at reason = Left (Fault (lineNumber b) at reason)
+
+faultOf :: Block -> GcodeWord -> FaultReason -> Either Fault a
+faultOf b w = faultAt b (column w)
+
+wordText :: GcodeWord -> Text
+wordText w = Text.singleton (letter w) <> numberText (number w)
+
+-- | Number of the first word with a letter.
+given :: Char -> Sorted -> Maybe Number
+given c s = listToMaybe [number w | w <- others s, letter w == c]
+
+-- | The modes that are set before a tool change: feed mode, feed, speed and selected tool.
+modesBefore :: Sorted -> ModalState -> Either Fault ModalState
+modesBefore s m = do
+  tool <- traverse whole (given 'T' s)
+  pure
+    m
+      { feedMode = choose (feedMode m) [(930, InverseTime), (940, PerMinute), (950, PerTurn)],
+        speed = maybe (speed m) (SetAt n . decimal) (given 'S' s),
+        selectedTool = maybe (selectedTool m) (SetAt n) tool,
+        units = choose (units m) [(200, Inches), (210, Millimetres)]
+      }
+  where
+    n = lineNumber (block s)
+    choose = chosen n (gCodes s)
+    whole k = maybe (faultAt (block s) 1 (BadNumber "T")) Right (isWhole k)
+
+-- | Value of a number as a floating-point number.
+decimal :: Number -> Double
+decimal (Number d k) = fromIntegral d / 10 ^ k
+
+-- | Part of the state after a line with these codes: the value of the code that it has, else the
+-- value before.
+chosen :: Int -> [Int] -> Modal a -> [(Int, a)] -> Modal a
+chosen n codes before table = case [a | (c, a) <- table, c `elem` codes] of
+  a : _ -> SetAt n a
+  [] -> before
+
+-- | Changes the tool if the line has M6. The spindle stops, and the control keeps the length of the
+-- tool before.
+toolChange :: Sorted -> Running -> Either Fault (Running, [Step])
+toolChange s now
+  | 60 `notElem` mCodes s = Right (now, [])
+  | otherwise = Right (now {modal = changed}, [Step n changed (Changes (valueOf (selectedTool m)))])
+  where
+    n = lineNumber (block s)
+    m = modal now
+    changed =
+      m
+        { toolInSpindle = maybe Unset (SetAt n) (valueOf (selectedTool m)),
+          toolLength = SetAt n LengthOfOther,
+          spindle = SetAt n SpindleStopped
+        }
+
+-- | The modes that are set after a tool change and before the motion. What changes the zero of the
+-- work coordinates makes the position unknown.
+modesBehind :: Sorted -> Running -> Running
+modesBehind s now = now {modal = m', place = place'}
+  where
+    n = lineNumber (block s)
+    m = modal now
+    gs = gCodes s
+    choose = chosen n gs
+    m' =
+      m
+        { spindle =
+            chosen
+              n
+              (mCodes s)
+              (spindle m)
+              [ (30, SpindleTurning Clockwise),
+                (40, SpindleTurning CounterClockwise),
+                (50, SpindleStopped)
+              ],
+          coolant =
+            chosen
+              n
+              (mCodes s)
+              (coolant m)
+              [(70, CoolantRunning), (80, CoolantRunning), (90, CoolantOff)],
+          plane = choose (plane m) [(170, PlaneXY), (180, PlaneZX), (190, PlaneYZ)],
+          diameters = choose (diameters m) [(70, True), (80, False)],
+          compensates = choose (compensates m) [(400, False)],
+          toolLength = lengthAfter,
+          workOffset = choose (workOffset m) [(10 * k, k) | k <- [54 .. 59]],
+          pathMode = choose (pathMode m) [(610, ExactPath), (611, ExactPath), (640, blended)],
+          distances = choose (distances m) [(900, Absolute), (910, Incremental)],
+          arcCentres = choose (arcCentres m) [(901, Absolute), (911, Incremental)],
+          feed = maybe (feed m) (SetAt n . feedValue) (given 'F' s),
+          motionMode = motionAfter
+        }
+    feedValue k = decimal k * (if valueOf (units m) == Just Inches then 25.4 else 1)
+    lengthAfter
+      | 490 `elem` gs = SetAt n NoLength
+      | 430 `elem` gs = case given 'H' s of
+        Just k -> maybe Unset (SetAt n . LengthOf) (isWhole k)
+        Nothing -> maybe Unset (SetAt n . LengthOf) (valueOf (toolInSpindle m))
+      | otherwise = toolLength m
+    -- Q is the tolerance of the merging of short motions; without Q it is P.
+    blended = Blended $ case given 'P' s of
+      Just p | digits p > 0 -> Just (Mm (mmOf p + maybe (mmOf p) mmOf (given 'Q' s)))
+      _ -> Nothing
+    mmOf = mmOfNumber m
+    motionAfter
+      | 800 `elem` gs = Unset
+      | otherwise = motionChosen
+    motionChosen =
+      choose
+        (motionMode m)
+        [ (0, RapidMode),
+          (10, LinearMode),
+          (20, ArcMode Clockwise),
+          (30, ArcMode CounterClockwise)
+        ]
+    place'
+      | valueOf (workOffset m') /= valueOf (workOffset m) =
+        (withoutHeight (place now)) {placeX = Anywhere, placeY = Anywhere}
+      | valueOf (toolLength m') /= valueOf (toolLength m) = withoutHeight (place now)
+      | otherwise = place now
+    withoutHeight p = case placeZ p of
+      At _ -> p {placeZ = Anywhere}
+      _ -> p
+
+-- | Value in mm of a number, in the units of the state.
+mmOfNumber :: ModalState -> Number -> Double
+mmOfNumber m k = decimal k * (if valueOf (units m) == Just Inches then 25.4 else 1)
+
+-- | Value in picometres of a number, in the units of the state.
+picometresOf :: ModalState -> Number -> Int
+picometresOf m k = case valueOf (units m) of
+  Just Inches -> scaled 8 k * 254
+  _ -> scaled 8 k * 10
+
+-- | Value in mm of a count of picometres.
+picometres :: Int -> Double
+picometres n = fromIntegral n / 1.0e9
+
+-- | The dwell of a line.
+dwellOf :: ProgramForm -> Sorted -> Either Fault (Maybe Seconds)
+dwellOf form s
+  | 40 `notElem` gCodes s = Right Nothing
+  | Just p <- given 'P' s, digits p >= 0 = Right (Just (Seconds (decimal p * perUnit)))
+  | Just p <- given 'S' s, dialect form == Marlin = Right (Just (Seconds (decimal p)))
+  | Just x <- given 'X' s, dialect form == Fanuc = Right (Just (Seconds (decimal x)))
+  | otherwise = faultAt (block s) 1 (WordMissing "P" "G4")
+  where
+    perUnit = dwellPerUnit (dialect form)
+
+-- Motions -----------------------------------------------------------------------------------------
+
+-- | Carries out the motion of a line.
+motionOf :: ProgramForm -> Sorted -> Running -> Either Fault (Running, [Step])
+motionOf form s now
+  | 40 `elem` gCodes s = Right (now, [])
+  | 280 `elem` gCodes s = toReference form s now
+  | null axisWords && null arcWords = unusedWords s >> Right (now, [])
+  | otherwise = do
+    mode' <- maybe (faultAt b 1 NoMotionMode) Right (valueOf (motionMode (modal now)))
+    target <- targetOf form s now
+    centre' <- case mode' of
+      ArcMode sense -> Just <$> arcCentre s sense now target
+      _ -> Right Nothing
+    unusedWords s
+    let travel = Travel mode' (place now) target centre'
+        -- The machine takes the tool to where the target is, so the state keeps it.
+        moved = now {place = target}
+    pure (moved, [Step (lineNumber b) (modal now) (Travels travel)])
+  where
+    b = block s
+    axisWords = [w | w <- others s, letter w `elem` ("XYZ" :: String)]
+    arcWords = [w | w <- others s, letter w `elem` ("IJKR" :: String), isArc]
+    isArc = case valueOf (motionMode (modal now)) of
+      Just (ArcMode _) -> True
+      _ -> False
+
+-- | Position at the end of the motion of a line.
+targetOf :: ProgramForm -> Sorted -> Running -> Either Fault Place
+targetOf form s now = Place <$> along 'X' placeX <*> along 'Y' placeY <*> along 'Z' placeZ
+  where
+    b = block s
+    m = modal now
+    along c at = case given c s of
+      Nothing -> Right (at (place now))
+      Just k
+        | 530 `elem` gCodes s -> inMachine c k
+        | valueOf (distances m) == Just Incremental -> case at (place now) of
+          At p -> Right (At (p + value c k))
+          _ -> faultAt b 1 (UnknownPosition c)
+        | otherwise -> Right (At (value c k))
+    value c k
+      | c == 'X' && valueOf (diameters m) == Just True = picometresOf m k `div` 2
+      | otherwise = picometresOf m k
+    inMachine c k
+      | valueOf (motionMode m) `notElem` [Just RapidMode, Just LinearMode] =
+        faultAt b 1 (WordMissing "G0" "G53")
+      | valueOf (distances m) == Just Incremental = faultAt b 1 (WordMissing "G90" "G53")
+      | c == 'Z',
+        MachineHeight (Mm h) <- retract form,
+        abs (picometres (picometresOf m k) - h) < 1.0e-6 =
+        Right Retracted
+      | otherwise = Right Anywhere
+
+-- | Carries out G28: the axes that the line names go to the reference point. Only G28 with
+-- increments of 0 is understood, because any other goes through another point first.
+toReference :: ProgramForm -> Sorted -> Running -> Either Fault (Running, [Step])
+toReference form s now
+  | retract form /= ReferencePoint = faultAt b 1 (UnprovenWord "G28")
+  | null axes = faultAt b 1 (WordMissing "Z0" "G28")
+  | valueOf (distances (modal now)) /= Just Incremental = faultAt b 1 (WordMissing "G91" "G28")
+  | any ((/= 0) . digits . number) axes = faultAt b 1 (UnprovenWord "G28")
+  | otherwise =
+    Right (now {place = target}, [Step (lineNumber b) (modal now) (Travels travel)])
+  where
+    b = block s
+    axes = [w | w <- others s, letter w `elem` ("XYZ" :: String)]
+    names c = c `elem` map letter axes
+    p = place now
+    target =
+      Place
+        (if names 'X' then Anywhere else placeX p)
+        (if names 'Y' then Anywhere else placeY p)
+        (if names 'Z' then Retracted else placeZ p)
+    travel = Travel RapidMode p target Nothing
+
+-- | Centre of an arc, in the plane of the state.
+arcCentre :: Sorted -> Sense -> Running -> Place -> Either Fault (Int, Int)
+arcCentre s sense now target = do
+  (begin, finish) <- maybe (faultAt b 1 (UnknownPosition 'X')) Right ends
+  case given 'R' s of
+    Just r -> maybe (faultAt b 1 BadArc) Right (centreByRadius sense r' begin finish)
+      where
+        r' = picometresOf m r
+    Nothing -> do
+      let offsets = map (`given` s) letters'
+      unless (any isJust offsets) (faultAt b 1 BadArc)
+      let centre' = byOffsets begin (map (fmap (picometresOf m)) offsets)
+      when (centre' == begin || centre' == finish) (faultAt b 1 BadArc)
+      pure centre'
+  where
+    b = block s
+    m = modal now
+    inPlane p = case valueOf (plane m) of
+      Just PlaneZX -> (placeZ p, placeX p)
+      Just PlaneYZ -> (placeY p, placeZ p)
+      _ -> (placeX p, placeY p)
+    letters' = case valueOf (plane m) of
+      Just PlaneZX -> ['K', 'I']
+      Just PlaneYZ -> ['J', 'K']
+      _ -> ['I', 'J']
+    ends = case (inPlane (place now), inPlane target) of
+      ((At a, At c), (At d, At e)) -> Just ((a, c), (d, e))
+      _ -> Nothing
+    byOffsets (x, y) offsets = case offsets of
+      [i, j]
+        | valueOf (arcCentres m) == Just Absolute -> (fromMaybe x i, fromMaybe y j)
+        | otherwise -> (x + fromMaybe 0 i, y + fromMaybe 0 j)
+      _ -> (x, y)
+
+-- | Centre of an arc by its radius: of the two centres, a positive radius takes the one with the
+-- smaller sweep. Nothing if the ends are equal or too far from one another.
+centreByRadius :: Sense -> Int -> (Int, Int) -> (Int, Int) -> Maybe (Int, Int)
+centreByRadius sense radius (x, y) (x', y')
+  | chord == 0 || h2 < -1.0e-6 * r * r = Nothing
+  | otherwise = Just (round (mx - k * dy), round (my + k * dx))
+  where
+    r = fromIntegral radius :: Double
+    (dx, dy) = (fromIntegral (x' - x), fromIntegral (y' - y)) :: (Double, Double)
+    chord = sqrt (dx * dx + dy * dy)
+    (mx, my) = (fromIntegral x + dx / 2, fromIntegral y + dy / 2)
+    h2 = r * r - chord * chord / 4
+    k = side * sqrt (max 0 h2) / chord
+    side = if (sense == CounterClockwise) == (radius > 0) then 1 else -1
+
+-- | Refuses words that nothing in the line uses.
+unusedWords :: Sorted -> Either Fault ()
+unusedWords s = case mapMaybe unused (others s) of
+  w : _ -> faultOf (block s) w (UnusedWord (Text.singleton (letter w)))
+  [] -> Right ()
+  where
+    gs = gCodes s
+    isArcLine = any (`elem` gs) [20, 30] || any ((`elem` ("IJKR" :: String)) . letter) (others s)
+    unused w
+      | letter w `elem` ("XYZFSTNO" :: String) = Nothing
+      | letter w `elem` ("IJKR" :: String) = if isArcLine then Nothing else Just w
+      | letter w == 'H' = if 430 `elem` gs then Nothing else Just w
+      | letter w == 'P' = if any (`elem` gs) [40, 640] then Nothing else Just w
+      | letter w == 'Q' = if 640 `elem` gs then Nothing else Just w
+      | otherwise = Just w

@@ -1,0 +1,239 @@
+-- | Frames of the motions that are read from a G-code file, for the proof.
+--
+-- A frame needs its beginning and its end in work coordinates. While the tool is at the retract
+-- height, or where it is not known, there are no frames; this is an /excursion/: the beginning of
+-- the file, a change of the tool, the end. After an excursion the frames go on where the tool comes
+-- down. If it comes down elsewhere than it left, rapid frames join both positions.
+--
+-- Commands are given in the frames as "Frame.CommandState" orders them.
+module Gcode.ToFrames
+  ( Reading (..),
+    ReadFrame (..),
+    reading,
+  )
+where
+
+import Base.PulseVector (Pulses2 (..), Pulses3 (..))
+import Base.Quantity (Mm (..), Pulses (..))
+import Base.Region (Region (Region))
+import Data.List (foldl')
+import Data.Maybe (fromMaybe, isNothing)
+import Data.Text qualified as Text
+import Frame.Command (Pending (..))
+import Frame.Command qualified as Command
+import Frame.CommandState (CommandState (..))
+import Frame.CommandState qualified as CommandState
+import Frame.Frame (Frame (..), FrameMotion (..))
+import Frame.Frame qualified as Frame
+import Gcode.ModalState
+import Gcode.Run
+import Geometry.Carrier qualified as Carrier
+import Machine.Machine (Axis (..), Content (..), FeedCode (..), Machine)
+import Machine.Machine qualified as Machine
+import Part.Part (Sense (..))
+
+-- | Frames of a file, and all its actions.
+data Reading = Reading
+  { readFrames :: [ReadFrame],
+    steps :: [Step],
+    -- | largest distance in mm, along one axis, of a position in the file from the nearest pulse
+    offGrid :: Mm
+  }
+  deriving stock (Eq, Show)
+
+-- | A frame, and the number of the line that makes its motion or gives its commands.
+data ReadFrame = ReadFrame {readFrame :: Frame, readFrom :: Int}
+  deriving stock (Eq, Show)
+
+-- | State of the conversion.
+data Converting = Converting
+  { -- | last known position in pulses
+    here :: Pulses3,
+    -- | true during an excursion
+    isAway :: Bool,
+    commanded :: CommandState,
+    pending :: Maybe Pending,
+    -- | the latest frame first
+    made :: [ReadFrame],
+    lost :: Double
+  }
+
+-- | Frames of the actions of a file. @level@ is the height in pulses from which on the tool is above
+-- everything; Nothing if no height in work coordinates is. @start@ is the position of the program
+-- before its first frame, and @first@ the number of the tool that the program has loaded then.
+reading :: Machine -> Maybe Pulses -> Maybe Int -> Pulses3 -> [Step] -> Reading
+reading machine level first start list =
+  Reading
+    { readFrames = reverse (made end),
+      steps = list,
+      offGrid = Mm (lost end)
+    }
+  where
+    begin =
+      Converting
+        { here = start,
+          isAway = True,
+          commanded = CommandState.initial,
+          pending = Nothing,
+          made = [],
+          lost = 0
+        }
+    end = foldl' (converted machine level first) begin list
+
+-- | Converts one action.
+converted :: Machine -> Maybe Pulses -> Maybe Int -> Converting -> Step -> Converting
+converted machine level first c step = case action step of
+  Travels travel -> travelled machine level (withCommands machine first step) c step travel
+  Changes _ -> c
+  Dwells _ -> c
+  Stops -> c
+  StopsOnDemand -> c
+  Ends ->
+    foldl'
+      (\c' ws -> addCommands (line step) ws (flushed (line step) c'))
+      c
+      (Command.finalFrames machine)
+
+-- | Converts a motion. @switched@ adds the commands that the state of the motion shows.
+travelled ::
+  Machine ->
+  Maybe Pulses ->
+  (Converting -> Converting) ->
+  Converting ->
+  Step ->
+  Travel ->
+  Converting
+travelled machine level switched c step travel = case inPulses machine (to travel) of
+  Just (target, off)
+    | maybe False (height target >=) level -> c {isAway = True}
+    | isAway c || isNothing (inPulses machine (from travel)) ->
+      let c' = switched c {isAway = False, lost = max (lost c) off}
+       in foldl' (addMotion (line step)) c' (joining (here c') target)
+    | otherwise ->
+      addMotion
+        (line step)
+        (switched c {lost = max (lost c) off})
+        (frameOf machine step travel (here c) target)
+  Nothing -> c {isAway = True}
+  where
+    height (Pulses3 _ _ z) = z
+
+-- | Adds the commands that lead to the state of a step.
+withCommands :: Machine -> Maybe Int -> Step -> Converting -> Converting
+withCommands machine first step c = foldl' add c {commanded = now} groups
+  where
+    now = stateOf first (state step)
+    groups = CommandState.between machine (commanded c) now
+    add c' ws =
+      let (full, pending') = Command.add machine (Region 0 0) ws (pending c')
+       in foldl' (\d p -> addCommands (line step) (given p) d) c' {pending = pending'} full
+
+-- | State of tool, spindle and coolant. Unknown parts count as off; "Verify.ControlState" finds
+-- them. The tool is Nothing as long as it is the first one.
+stateOf :: Maybe Int -> ModalState -> CommandState
+stateOf first m =
+  CommandState
+    { tool = case valueOf (toolInSpindle m) of
+        t | t == first || isNothing t -> Nothing
+        t -> t,
+      CommandState.spindle = case valueOf (Gcode.ModalState.spindle m) of
+        Just (SpindleTurning sense) -> Just (senseOf sense, round <$> valueOf (speed m))
+        _ -> Nothing,
+      coolantRuns = valueOf (coolant m) == Just CoolantRunning
+    }
+  where
+    senseOf sense = case sense of
+      Carrier.Clockwise -> Clockwise
+      Carrier.CounterClockwise -> CounterClockwise
+
+-- | Adds a frame of commands.
+addCommands :: Int -> [(Machine.CommandName, Int)] -> Converting -> Converting
+addCommands n ws c = c {made = ReadFrame (Frame.commandFrame ws) n : made c}
+
+-- | Adds a frame for the commands that no frame holds yet.
+flushed :: Int -> Converting -> Converting
+flushed n c = case pending c of
+  Nothing -> c
+  Just p -> addCommands n (given p) c {pending = Nothing}
+
+-- | Adds a frame with motion, with the commands that no frame holds yet. A motion without pulses
+-- has no frame.
+addMotion :: Int -> Converting -> Frame -> Converting
+addMotion n c f
+  | Frame.isStill f && motion f `elem` [Linear, Rapid] = c
+  | otherwise =
+    c
+      { here = here c + increment f,
+        pending = Nothing,
+        made = ReadFrame f {commands = maybe [] given (pending c)} n : made c
+      }
+
+-- | Rapid frames from one position to another: at the higher of the two heights.
+joining :: Pulses3 -> Pulses3 -> [Frame]
+joining a@(Pulses3 ax ay az) b@(Pulses3 bx by bz) =
+  map rapidFrame (differences [a, Pulses3 ax ay top, Pulses3 bx by top, b])
+  where
+    top = max az bz
+    differences ps = [q - p | (p, q) <- zip ps (drop 1 ps), p /= q]
+    rapidFrame d =
+      (Frame.commandFrame []) {motion = Rapid, increment = d}
+
+-- | Frame of a motion between two positions in pulses.
+frameOf :: Machine -> Step -> Travel -> Pulses3 -> Pulses3 -> Frame
+frameOf machine step travel begin target = case mode travel of
+  RapidMode -> plain {motion = Rapid}
+  LinearMode -> plain {motion = Linear, feedCode}
+  ArcMode sense
+    | Just c <- about travel,
+      valueOf (plane (state step)) == Just (planeOf machine) ->
+      plain {motion = Circular sense, feedCode, centre = centreFrom c}
+    -- An arc in another plane is a finding of its own.
+    | otherwise -> plain {motion = Linear, feedCode}
+  where
+    plain = (Frame.commandFrame []) {increment = target - begin}
+    feedCode = FeedCode (maybe 0 round (valueOf (Gcode.ModalState.feed (state step))))
+    centreFrom (i, j) =
+      let Pulses3 x y _ = begin
+          (cx, _) = nearest machine X i
+          (cy, _) = nearest machine Y j
+       in Pulses2 (cx - x) (cy - y)
+
+-- | Plane of the part's axes x and y, by the letters of the control.
+planeOf :: Machine -> Plane
+planeOf machine = case letterOf machine X of
+  'Z' -> PlaneZX
+  _ -> PlaneXY
+
+-- | Position in pulses along the axes of the part, and the largest distance in mm of a coordinate
+-- from its pulse. Nothing if a coordinate is not known.
+inPulses :: Machine -> Place -> Maybe (Pulses3, Double)
+inPulses machine place = do
+  (x, dx) <- along X
+  (y, dy) <- along Y
+  (z, dz) <- along Z
+  pure (Pulses3 x y z, maximum [dx, dy, dz])
+  where
+    along axis
+      | isNothing (Machine.wordFor machine (Along axis)) = Just (0, 0)
+      | otherwise = case coordinate (letterOf machine axis) of
+        At p -> Just (nearest machine axis p)
+        Retracted -> Nothing
+        Anywhere -> Nothing
+    coordinate c = case c of
+      'X' -> placeX place
+      'Y' -> placeY place
+      _ -> placeZ place
+
+-- | Nearest pulse of an axis, and the distance from it in mm.
+nearest :: Machine -> Axis -> Int -> (Pulses, Double)
+nearest machine axis p = (Pulses n, abs (picometres (p - n * pulse)))
+  where
+    Mm resolution = Machine.resolutionOf machine axis
+    pulse = max 1 (round (resolution * 1.0e9))
+    n = (2 * p + pulse) `div` (2 * pulse)
+
+-- | Letter of the words of an axis.
+letterOf :: Machine -> Axis -> Char
+letterOf machine axis = fromMaybe 'Z' $ do
+  word <- Machine.wordFor machine (Along axis)
+  fst <$> Text.uncons (Machine.address word)

@@ -1,0 +1,408 @@
+-- | Writes the frames of a program as G-code for a modern control: a head of comments, a safe
+-- beginning, the motions, safe changes of the tool, and a safe end.
+--
+-- /Away/ means that the tool is at the retract height. From there x and y go to their position, and
+-- then z comes down.
+module Gcode.Writer
+  ( ToolFile (..),
+    write,
+    landing,
+  )
+where
+
+import Base.Decimal qualified as Decimal
+import Base.PulseVector (Pulses2 (..), Pulses3 (..))
+import Base.Quantity (Mm (..), Pulses (..), Seconds (..))
+import Data.Char (isAscii, isPrint)
+import Data.Maybe (fromMaybe, isJust, mapMaybe, maybeToList)
+import Data.Text (Text)
+import Data.Text qualified as Text
+import Frame.Command qualified as Command
+import Frame.Frame (Frame (..), FrameMotion (..), FrameProgram (..), PlannedFrame (..))
+import Frame.Frame qualified as Frame
+import Gcode.Dialect qualified as Dialect
+import Gcode.Heading (Heading (..))
+import Geometry.Carrier qualified as Carrier
+import Machine.Machine
+  ( Axis (..),
+    CommandName,
+    CommandValue (..),
+    CommandWord (..),
+    CommandWords (..),
+    Content (..),
+    FeedCode (..),
+    Machine,
+    MachineName (..),
+    NumberForm (decimals),
+    ProgramForm (..),
+    Word' (address),
+  )
+import Machine.Machine qualified as Machine
+import Machine.ProgramForm (Dialect (..), Retract (..))
+import Machine.ProgramForm qualified as ProgramForm
+
+-- | A file, and the number of its tool if each tool has a file of its own.
+data ToolFile = ToolFile {toolOfFile :: Maybe Int, fileText :: Text}
+  deriving stock (Eq, Show)
+
+-- | State while the lines are written.
+data Writing = Writing
+  { at :: Pulses3,
+    isAway :: Bool,
+    -- | feed code that is in force; Nothing if the next feed has to be written
+    feedWritten :: Maybe FeedCode,
+    hasCoolant :: Bool,
+    -- | true from a change of the tool on, which switches the coolant off, until it is on again
+    isCoolantPaused :: Bool,
+    -- | true if the spindle turns
+    turns :: Bool
+  }
+
+-- | Files of a program. @bound@ is the largest deviation in mm from the path that the control may
+-- make at corners; Nothing for an exact path.
+write :: Machine -> ProgramForm -> Heading -> Maybe Mm -> FrameProgram -> [ToolFile]
+write machine form heading bound program =
+  [ ToolFile
+      (if ProgramForm.changesTools (dialect form) then Nothing else tool)
+      (Text.unlines (fileLines context tool begin fs))
+    | (tool, begin, fs) <- parts
+  ]
+  where
+    context = Context {machine, form, heading, bound}
+    frames =
+      dropEnd (length (Command.finalFrames machine)) (map frame (plannedFrames program))
+    parts
+      | ProgramForm.changesTools (dialect form) =
+        [(firstTool heading, start program, frames)]
+      | otherwise = byTool machine (firstTool heading) (start program) frames
+    dropEnd n xs = take (length xs - n) xs
+
+-- | Frames of each tool, with its number and the position before its first frame.
+byTool :: Machine -> Maybe Int -> Pulses3 -> [Frame] -> [(Maybe Int, Pulses3, [Frame])]
+byTool machine tool begin frames = case break isChange frames of
+  (own, []) -> [(tool, begin, own)]
+  (own, change : more) ->
+    (tool, begin, own) :
+    byTool
+      machine
+      (Just (head' (changesIn change)))
+      (begin + sum (map increment own))
+      (withoutChange change : more)
+  where
+    isChange f = not (null (changesIn f))
+    changesIn f = [n | ToTool n <- actionsOf machine f]
+    head' ns = case ns of
+      n : _ -> n
+      [] -> 0
+    withoutChange f = f {commands = [c | c <- commands f, fst c `notElem` changeNames]}
+    changeNames = map commandName (toolChange (Machine.commandWords machine))
+
+-- | Facts that are the same for all lines.
+data Context = Context
+  { machine :: Machine,
+    form :: ProgramForm,
+    heading :: Heading,
+    bound :: Maybe Mm
+  }
+
+-- | Lines of one file.
+fileLines :: Context -> Maybe Int -> Pulses3 -> [Frame] -> [Text]
+fileLines context tool begin frames =
+  [percent | hasPercent]
+    <> programLine
+    <> map (commentLine context) (headTexts context tool)
+    <> modeLines context
+    <> retractLines context
+    <> toolLines context tool
+    <> motions
+    <> retractLines context
+    <> ["M5" | not (isSpindleByHand (heading context))]
+    <> ["M9" | hasCoolant final]
+    <> finishLines context
+    <> [percent | hasPercent]
+  where
+    percent = "%"
+    hasPercent = dialect (form context) `elem` [LinuxCnc, Fanuc]
+    programLine =
+      [ "O" <> Text.justifyRight 4 '0' (Decimal.whole n)
+        | dialect (form context) == Fanuc,
+          n <- maybeToList (programNumber (heading context))
+      ]
+    (final, motions) = frameLines context (Writing at True Nothing False False False) rest
+    (at, rest) = landing begin frames
+
+-- | Position at which the tool comes down first, and the frames from there on: rapid moves straight
+-- up at the beginning are left out, because the tool comes from above.
+landing :: Pulses3 -> [Frame] -> (Pulses3, [Frame])
+landing begin frames = case frames of
+  f : more
+    | motion f == Rapid,
+      Pulses3 0 0 z <- increment f,
+      z > 0,
+      null (commands f) ->
+      landing (begin + increment f) more
+  _ -> (begin, frames)
+
+-- | Texts of the comments at the head of a file.
+headTexts :: Context -> Maybe Int -> [(Text, Text)]
+headTexts Context {machine, form, heading} tool =
+  [("part", partName heading <> (if title == "" then "" else ", " <> title))]
+    <> [("machine", name)]
+    <> [ ("tool " <> Decimal.whole n, text)
+         | (n, text) <- toolList heading,
+           ProgramForm.changesTools (dialect form) || Just n == tool
+       ]
+    <> [("before the start", text) | text <- operatorTexts form heading]
+  where
+    title = partTitle heading
+    MachineName name = Machine.name machine
+
+-- | What the operator has to do before the start.
+operatorTexts :: ProgramForm -> Heading -> [Text]
+operatorTexts form heading =
+  [ if ProgramForm.takesLengths (dialect form)
+      then "set the work offset G" <> Decimal.whole (workOffset heading) <> " and the tool lengths"
+      else "touch off x, y and z of this tool"
+  ]
+    <> safeTexts
+    <> ["switch the spindle on by hand" | isSpindleByHand heading]
+    <> marlinTexts
+  where
+    safeTexts = case (retract form, safeHeight heading) of
+      (SafeHeight, Just z) ->
+        [ "the tool stands no higher than z " <> Decimal.mm z,
+          "nothing is above the tool on its way up to that height"
+        ]
+      _ -> []
+    marlinTexts = case dialect form of
+      Marlin -> ["the build has ARC SUPPORT and SPINDLE FEATURE with speeds in rpm"]
+      _ -> []
+
+-- | A comment with a fixed word before the text. Controls act on some characters and on some first
+-- words of comments, so only harmless characters are kept.
+commentLine :: Context -> (Text, Text) -> Text
+commentLine Context {form} (word, text) = case dialect form of
+  Marlin -> cut ("; " <> content)
+  _ -> cut ("(" <> content) <> ")"
+  where
+    content = word <> ": " <> Text.map replaced (Text.filter isHarmless text)
+    isHarmless c = isAscii c && isPrint c && c `notElem` ("()%;!?~\\^$*[]#" :: String)
+    replaced c = if c == '\t' then ' ' else c
+    cut = Text.take (mostCharacters form - 1)
+
+-- | Lines that set every part of the state that the motions need.
+modeLines :: Context -> [Text]
+modeLines Context {form, heading, bound} = case dialect form of
+  LinuxCnc ->
+    ["G21 G17 G90 G91.1 G94 G8 G40 G49 G80", offset, maybe "G61" blended bound]
+  Fanuc -> ["G21 G17 G90 G94 G40 G49 G80", offset, "G61"]
+  Grbl -> ["G21 G17 G90 G91.1 G94 G40 G49 G80", offset]
+  Marlin -> ["G21", "G17", "G90", offset]
+  where
+    offset = "G" <> Decimal.whole (workOffset heading)
+    blended (Mm p) = "G64 P" <> Decimal.fixed 3 p <> " Q0"
+
+-- | Lines that take the tool to the retract height: z alone, upwards.
+retractLines :: Context -> [Text]
+retractLines context@Context {form, heading} = case retract form of
+  MachineHeight (Mm h) -> ["G53 G0 Z" <> Decimal.short 3 h]
+  ReferencePoint -> ["G91 G28 Z0.", "G90"]
+  SafeHeight -> ["G0 " <> height <> rapidFeed context]
+  where
+    height = case safeHeight heading of
+      Just (Mm z) -> "Z" <> Decimal.fixed 3 z
+      Nothing -> ""
+
+-- | Lines that put a tool into the spindle and take its length.
+toolLines :: Context -> Maybe Int -> [Text]
+toolLines Context {form} tool =
+  [ line
+    | n <- maybeToList tool,
+      ProgramForm.changesTools (dialect form),
+      line <- ["T" <> Decimal.whole n <> " M6", "G43 H" <> Decimal.whole n]
+  ]
+
+-- | Lines that end the program.
+finishLines :: Context -> [Text]
+finishLines Context {machine} =
+  [ Text.unwords (map (commandText machine) ws)
+    | ws <- Command.finalFrames machine
+  ]
+
+-- | Word of a command.
+commandText :: Machine -> (CommandName, Int) -> Text
+commandText machine (name, n) =
+  maybe "" address (Machine.wordFor machine (Machine.Command name)) <> Decimal.whole n
+
+-- Frames ------------------------------------------------------------------------------------------
+
+-- | Lines of the frames, and the state after them.
+frameLines :: Context -> Writing -> [Frame] -> (Writing, [Text])
+frameLines context now frames = case frames of
+  [] -> (now, [])
+  f : more ->
+    let (commanded, before) = actionLines context now (actionsOf (machine context) f)
+        (moved, own) = motionLines context commanded f
+        (final, behind) = frameLines context moved more
+     in (final, before <> own <> behind)
+
+-- | Meaning of the commands of a frame.
+data ControlAction
+  = ToTool Int
+  | Turning CommandWordsText
+  | StopSpindle
+  | CoolantSwitch Bool
+  | OtherCommand (CommandName, Int)
+
+-- | Words of a command with their numbers.
+type CommandWordsText = [(CommandName, Int)]
+
+-- | Meanings of the commands of a frame, in the order in which the control has to carry them out.
+actionsOf :: Machine -> Frame -> [ControlAction]
+actionsOf machine f = go (commands f) candidates
+  where
+    table = Machine.commandWords machine
+    candidates =
+      [ (toolChange table, ToTool . argumentOf (toolChange table)),
+        (spindleClockwise table, Turning),
+        (spindleCounterClockwise table, Turning),
+        (spindleOff table, const StopSpindle),
+        (coolantOn table, const (CoolantSwitch True)),
+        (coolantOff table, const (CoolantSwitch False))
+      ]
+    go left list = case list of
+      [] -> map OtherCommand left
+      (ws, make) : more
+        | not (null ws),
+          Just found <- traverse (`numberIn` left) ws ->
+          make found : go (filter (`notElem` found) left) more
+        | otherwise -> go left more
+    numberIn w left = case lookup (commandName w) left of
+      Just n | value w == Fixed n || value w == Argument -> Just (commandName w, n)
+      _ -> Nothing
+    argumentOf ws found = case [n | w <- ws, value w == Argument, Just n <- [lookup (commandName w) found]] of
+      n : _ -> n
+      [] -> 0
+
+-- | Lines of commands.
+actionLines :: Context -> Writing -> [ControlAction] -> (Writing, [Text])
+actionLines context now actions = case actions of
+  [] -> (now, [])
+  a : more ->
+    let (now', own) = actionLine context now a
+        (final, behind) = actionLines context now' more
+     in (final, own <> behind)
+
+actionLine :: Context -> Writing -> ControlAction -> (Writing, [Text])
+actionLine context@Context {machine, form, heading} now action = case action of
+  ToTool n ->
+    ( now {isAway = True, turns = False, isCoolantPaused = hasCoolant now, feedWritten = Nothing},
+      retractLines context
+        <> ["M5" | not (isSpindleByHand heading)]
+        <> ["M9" | hasCoolant now]
+        <> toolLines context (Just n)
+    )
+  Turning ws ->
+    ( now {turns = True},
+      [Text.unwords (map (commandText machine) ws), dwellLine form (spinUp form)]
+    )
+  StopSpindle -> (now {turns = False}, ["M5"])
+  CoolantSwitch isOn -> (now {hasCoolant = isOn, isCoolantPaused = False}, [if isOn then "M8" else "M9"])
+  OtherCommand c -> (now, [commandText machine c])
+
+-- | Line that waits for a time.
+dwellLine :: ProgramForm -> Seconds -> Text
+dwellLine form (Seconds t) = "G4 P" <> Decimal.short 3 (t / Dialect.dwellPerUnit (dialect form))
+
+-- | Lines of the motion of a frame. A tool that is away comes down first.
+motionLines :: Context -> Writing -> Frame -> (Writing, [Text])
+motionLines context@Context {machine} now f
+  | not (Frame.isMoving f) = (now, [])
+  | otherwise = (moved, down <> [own])
+  where
+    down
+      | isAway now =
+        ["M8" | isCoolantPaused now]
+          <> [ rapidWord <> Text.unwords (mapMaybe (axisText machine (at now)) [X, Y]) <> feedOfRapid,
+               rapidWord <> fromMaybe "" (axisText machine (at now) Z) <> feedOfRapid
+             ]
+      | otherwise = []
+    rapidWord = "G0 "
+    feedOfRapid = rapidFeed context
+    end = at now + increment f
+    own =
+      Text.unwords (motionWord : axisWords <> centreWords) <> case motion f of
+        Rapid -> feedOfRapid
+        _ -> feedText
+    motionWord = case motion f of
+      Rapid -> "G0"
+      Circular Carrier.Clockwise -> "G2"
+      Circular Carrier.CounterClockwise -> "G3"
+      _ -> "G1"
+    axisWords =
+      [ word
+        | axis <- [X, Y, Z],
+          isMoved axis || isFullCircle && axis /= Z,
+          word <- maybeToList (axisText machine end axis)
+      ]
+    isFullCircle = increment f == 0
+    isMoved axis = component axis (increment f) /= 0
+    centreWords = case motion f of
+      Circular _ ->
+        let Pulses2 i j = centre f
+         in [ scaledText machine (Centre axis) n
+              | (axis, n) <- [(X, i), (Y, j)]
+            ]
+      _ -> []
+    feedText
+      | feedWritten now' == Just (feedCode f) = ""
+      | otherwise = let FeedCode n = feedCode f in " F" <> feedNumber context n
+    now' = if isAway now then now {feedWritten = Nothing} else now
+    moved =
+      now
+        { at = end,
+          isAway = False,
+          isCoolantPaused = False,
+          feedWritten = case motion f of
+            Rapid -> if dialect (form context) == Marlin then Nothing else feedWritten now'
+            _ -> Just (feedCode f)
+        }
+
+-- | Number of a feed word. Some controls want a point in it.
+feedNumber :: Context -> Int -> Text
+feedNumber Context {form} n = Decimal.whole n <> (if dialect form == Fanuc then "." else "")
+
+-- | Feed word of a rapid move, on controls that need one.
+rapidFeed :: Context -> Text
+rapidFeed context@Context {machine, form} = case dialect form of
+  Marlin -> let FeedCode n = Machine.rapidCode machine in " F" <> feedNumber context n
+  _ -> ""
+
+component :: Axis -> Pulses3 -> Pulses
+component axis (Pulses3 x y z) = case axis of
+  X -> x
+  Y -> y
+  Z -> z
+
+-- | Word of an axis at a position in pulses; Nothing if the machine lacks the axis.
+axisText :: Machine -> Pulses3 -> Axis -> Maybe Text
+axisText machine position axis
+  | isJust (Machine.wordFor machine (Along axis)) =
+    Just (scaledText machine (Along axis) (component axis position))
+  | otherwise = Nothing
+
+-- | Word with its number in pulses, the last decimal of which is a pulse.
+scaledText :: Machine -> Content -> Pulses -> Text
+scaledText machine content' (Pulses n) = case Machine.wordFor machine content' of
+  Nothing -> ""
+  Just word -> address word <> decimalText (decimals (Machine.form word)) n
+
+-- | Number with a count of decimals, from its value in units of the last decimal.
+decimalText :: Int -> Int -> Text
+decimalText count n
+  | count == 0 = sign <> padded
+  | otherwise = sign <> whole <> "." <> fraction
+  where
+    sign = if n < 0 then "-" else ""
+    padded = Text.justifyRight (count + 1) '0' (Decimal.whole (abs n))
+    (whole, fraction) = Text.splitAt (Text.length padded - count) padded

@@ -1,0 +1,70 @@
+-- | The form of a whole program for a modern control: its words, and how a program begins, changes
+-- the tool and ends. A machine without this form has no such control.
+module Machine.ProgramForm
+  ( ProgramForm (..),
+    Dialect (..),
+    Retract (..),
+    RapidPath (..),
+    takesLengths,
+    changesTools,
+    hasPathMode,
+  )
+where
+
+import Base.Quantity (Mm, Seconds)
+
+-- | Form of the programs of a modern control.
+data ProgramForm = ProgramForm
+  { dialect :: Dialect,
+    retract :: Retract,
+    -- | time until the spindle turns at its speed; the control does not wait for it by itself
+    spinUp :: Seconds,
+    rapidPath :: RapidPath,
+    -- | largest count of characters in a line, without its end
+    mostCharacters :: Int
+  }
+  deriving stock (Eq, Show)
+
+-- | Family of controls that understand the same words. "Gcode.Dialect" lists the words.
+data Dialect = LinuxCnc | Grbl | Marlin | Fanuc
+  deriving stock (Eq, Show, Enum, Bounded)
+
+-- | Height to which the tool goes before anything else, and how it gets there.
+data Retract
+  = -- | this height in machine coordinates, in mm, by G53
+    MachineHeight Mm
+  | -- | the reference point of z, by G28
+    ReferencePoint
+  | -- | the safe height of the program, in work coordinates: the control does not know where the
+    -- machine stands
+    SafeHeight
+  deriving stock (Eq, Show)
+
+-- | Path of a rapid move that moves several axes.
+data RapidPath
+  = -- | a straight line
+    StraightPath
+  | -- | any path in the box between the two ends: one axis may arrive before the other
+    BoxPath
+  deriving stock (Eq, Show)
+
+-- | True if the control takes the length of a tool from its tool table (G43). Otherwise the
+-- operator touches off each tool.
+takesLengths :: Dialect -> Bool
+takesLengths dialect = case dialect of
+  LinuxCnc -> True
+  Fanuc -> True
+  Grbl -> False
+  Marlin -> False
+
+-- | True if the control changes tools (M6). Otherwise each tool has a file of its own.
+changesTools :: Dialect -> Bool
+changesTools = takesLengths
+
+-- | True if the control may leave the path at corners, unless the program says how far.
+hasPathMode :: Dialect -> Bool
+hasPathMode dialect = case dialect of
+  LinuxCnc -> True
+  Fanuc -> True
+  Grbl -> False
+  Marlin -> False

@@ -1,0 +1,67 @@
+-- | Reads the section @program@ of a description, and checks it against the other sections.
+module Machine.ProgramFromText
+  ( programForm,
+    check,
+  )
+where
+
+import Base.Quantity (Mm (..), Seconds (..))
+import Base.Region (Located (..), Region)
+import Base.Result (Result)
+import Machine.Error (Error (..))
+import Machine.Machine (CommandWords (..), Machine)
+import Machine.Machine qualified as Machine
+import Machine.ProgramForm
+import Machine.Section
+import Machine.Syntax (Argument, Argument_ (..), Statement)
+
+-- | Reads the section @program@.
+programForm :: Statement -> Result w Error ProgramForm
+programForm s = do
+  ((), section) <- withBlock ["program { … }"] "the program" noArguments s
+  ProgramForm
+    <$> required "dialect" "dialect linuxcnc" dialectFrom section
+    <*> required "retract" "retract machine 0 mm" retractFrom section
+    <*> required "spin-up" "spin-up 3 s" spinUpFrom section
+    <*> required "rapid" "rapid straight" rapidFrom section
+    <*> required "characters" "characters 250" charactersFrom section
+    <* allowKeys ["dialect", "retract", "spin-up", "rapid", "characters"] [] section
+  where
+    dialectFrom =
+      choice [("linuxcnc", LinuxCnc), ("grbl", Grbl), ("marlin", Marlin), ("fanuc", Fanuc)]
+    rapidFrom = choice [("straight", StraightPath), ("box", BoxPath)]
+    spinUpFrom = withArguments ["spin-up 3 s"] oneTime
+    oneTime args = case args of
+      [a, b] -> fmap Seconds <$> quantityIn "the time of the spindle" "s" 60 a b
+      _ -> Nothing
+    charactersFrom = withArguments ["characters 250"] oneCount
+    oneCount args = case args of
+      [a] -> wholeIn "the count of characters" 40 1000 a
+      _ -> Nothing
+
+-- | Reads the height to which the tool goes first.
+retractFrom :: Statement -> Result w Error Retract
+retractFrom =
+  withArguments ["retract machine 0 mm", "retract reference", "retract safe"] form
+  where
+    form :: [Argument] -> Maybe (Result w Error Retract)
+    form args = case map value args of
+      [Word "machine", Number _ v, Word "mm"]
+        | abs v <= 10000 -> Just (pure (MachineHeight (Mm v)))
+      [Word "reference"] -> Just (pure ReferencePoint)
+      [Word "safe"] -> Just (pure SafeHeight)
+      _ -> Nothing
+
+-- | Commands that every program of this form needs.
+check :: Machine -> Region -> ProgramForm -> [Error]
+check machine region form =
+  [ Missing region "the commands" name example
+    | (name, example, False) <-
+        [ ("spindle-clockwise", "spindle-clockwise { set S argument … }", has spindleClockwise),
+          ("spindle-off", "spindle-off { set M 5 }", has spindleOff),
+          ("tool-change", "tool-change { set T argument … }", has toolChange || isFixed)
+        ]
+  ]
+  where
+    has list = not (null (list (Machine.commandWords machine)))
+    isFixed = not (changesTools (dialect form))

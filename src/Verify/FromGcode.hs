@@ -1,0 +1,116 @@
+-- | Proof of a file of G-code: its motions are compared with the part, and the state of the control
+-- at each of them with what the program asks for.
+module Verify.FromGcode
+  ( readTexts,
+    framesRead,
+    lineOfFrame,
+    blendingBound,
+    judged,
+  )
+where
+
+import Base.PulseVector (Pulses3)
+import Base.Quantity (Mm (..), Pulses (..), minus, plus)
+import Base.Region (Located (..))
+import Data.List (foldl')
+import Data.Maybe (mapMaybe)
+import Data.Text (Text)
+import Data.Text qualified as Text
+import Frame.Frame (Frame)
+import Gcode.Block (Fault (..))
+import Gcode.Heading (Heading (..))
+import Gcode.ModalState (Plane (..))
+import Gcode.Run (Step (..))
+import Gcode.Run qualified as Run
+import Gcode.ToFrames (ReadFrame (..), Reading (..))
+import Gcode.ToFrames qualified as ToFrames
+import Machine.Machine (Machine, ProgramForm (..))
+import Machine.Machine qualified as Machine
+import Machine.ProgramForm (Retract (..))
+import Verify.ControlState (StateDemand (..))
+import Verify.ControlState qualified as ControlState
+import Verify.Proof (ContourProof (..), Finding (LeavesPath), Proof (..), Witness (..))
+
+-- | Reads the files of a program. Lines are counted over all files together. @start@ is the
+-- position of the program before its first frame, in pulses.
+readTexts :: Machine -> ProgramForm -> Heading -> Pulses3 -> [Text] -> Either Fault Reading
+readTexts machine form heading start texts =
+  ToFrames.reading machine (levelOf form heading machine) (firstTool heading) start . concat
+    <$> traverse ofFile (zip (scanl (+) 0 (map (length . Text.lines) texts)) texts)
+  where
+    ofFile (before, text) = case Run.run form text of
+      Left (Fault n column reason) -> Left (Fault (n + before) column reason)
+      Right steps -> Right [s {line = line s + before} | s <- steps]
+
+-- | Height in pulses from which on the tool is above everything; Nothing if no height in work
+-- coordinates is.
+levelOf :: ProgramForm -> Heading -> Machine -> Maybe Pulses
+levelOf form heading machine = case (retract form, safeHeight heading) of
+  (SafeHeight, Just (Mm z)) -> Just (Pulses (ceiling (z / resolution - 1.0e-6)))
+  _ -> Nothing
+  where
+    Mm resolution = Machine.resolutionOf machine Machine.Z
+
+-- | Frames that were read.
+framesRead :: Reading -> [Frame]
+framesRead = map readFrame . readFrames
+
+-- | Number of the line of a frame, which is counted from 1.
+lineOfFrame :: Reading -> Int -> Maybe Int
+lineOfFrame reading n = case drop (n - 1) (readFrames reading) of
+  f : _ | n > 0 -> Just (readFrom f)
+  _ -> Nothing
+
+-- | State of the control that a program asks for.
+demandOf :: Machine -> ProgramForm -> Heading -> StateDemand
+demandOf machine form heading =
+  StateDemand
+    { offset = workOffset heading,
+      cuttingPlane = PlaneXY,
+      level = (\(Pulses n) -> n * pulse) <$> levelOf form heading machine,
+      isByHand = isSpindleByHand heading
+    }
+  where
+    Mm resolution = Machine.resolutionOf machine Machine.Z
+    pulse = round (resolution * 1.0e9)
+
+-- | Largest deviation that a control may make at corners: what the deviations of all contours leave
+-- of the tolerance, rounded down to 0.001 mm. Nothing if nothing is left, or without contours.
+blendingBound :: Machine -> Proof -> Maybe Mm
+blendingBound machine proof = case mapMaybe left (contourProofs proof) of
+  _ | null (contourProofs proof) -> Nothing
+  rests -> positive (foldl' min (Mm (1 / 0)) rests)
+  where
+    pulse = Machine.planeResolution machine
+    left c = Just (minus (min (leftOf allowedGouge gouge c) (leftOf allowedExcess excess c)) pulse)
+    leftOf allowed found c = minus (allowed c) (maybe (Mm 0) amount (found c))
+    positive (Mm d)
+      | n > 0 = Just (Mm (fromIntegral n / 1000))
+      | otherwise = Nothing
+      where
+        n = floor (d * 1000 + 1.0e-6) :: Int
+
+-- | Judges the state of the control in all actions of a file. @proof@ is that of the path. What the
+-- control may leave the path by is added to all deviations.
+judged :: Machine -> ProgramForm -> Heading -> Reading -> Proof -> Proof
+judged machine form heading reading proof =
+  proof
+    { contourProofs = map farther (contourProofs proof),
+      findings = findings proof <> mapMaybe tooFar (contourProofs proof),
+      controlFindings = ControlState.findings form (demandOf machine form heading) (steps reading)
+    }
+  where
+    p = plus (ControlState.largestBlending (steps reading)) (offGrid reading)
+    farther c = c {gouge = further <$> gouge c, excess = further <$> excess c}
+    further w = w {amount = plus (amount w) p}
+    tooFar c
+      | p > Mm 0 && (isOver allowedGouge gouge || isOver allowedExcess excess) =
+        Just (LeavesPath (region (contour c)) p largest least)
+      | otherwise = Nothing
+      where
+        isOver allowed found =
+          amountOf found <= allowed c
+            && plus p (amountOf found) > plus (allowed c) (Mm 1.0e-9)
+        amountOf found = maybe (Mm 0) amount (found c)
+        largest = max (amountOf gouge) (amountOf excess)
+        least = min (allowedGouge c) (allowedExcess c)
