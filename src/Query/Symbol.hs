@@ -108,22 +108,28 @@ symbol source (Located whole s) = case s of
   Turn contour side _ -> machining (region side) (region contour)
   Drill holes depth _ -> machining (region depth) (region holes)
   Travel _ _ -> machining whole whole
-  Change number cutter -> machining (region cutter) (region number)
+  Change number cutter _ -> machining (region cutter) (region number)
   Repeat (Located selection _) list _ -> machining (region list) selection
   When condition _ _ -> machining (region condition) (region condition)
   With placement _ -> machining (region placement) (region placement)
   Broken _ name -> name >>= \n -> definition Value n ""
   Machine _ -> Nothing
   Import _ -> Nothing
-  Tool _ -> Nothing
+  Tool _ _ -> Nothing
   Feed _ -> Nothing
   Tolerance _ -> Nothing
   Clearance _ -> Nothing
   From _ -> Nothing
+  WorkOffset _ -> Nothing
+  ProgramNumber _ -> Nothing
+  SafeHeight _ -> Nothing
   Assert _ _ -> Nothing
   Spindle _ -> Nothing
   Coolant _ -> Nothing
   Auxiliary _ -> Nothing
+  ProgramStop -> Nothing
+  OptionalStop -> Nothing
+  Dwell _ -> Nothing
   where
     definition kind (Located selection (Name name)) detail =
       Just DocumentSymbol {name, detail, kind, whole, selection, children}

@@ -106,7 +106,7 @@ headStatement g = Located (region number) (Part (Name . partName <$> number) (Ju
 settings :: Sheet -> [Statement]
 settings sheet@Sheet {general = g, approach} =
   [ Located at (Machine (Located at (Surface.Named "lkp-01f"))),
-    Located (region (diameter g)) (Tool (Located (region (diameter g)) tool)),
+    Located (region (diameter g)) (Tool Nothing (Located (region (diameter g)) tool)),
     Located (region working) (Feed (measured MmPerMin working)),
     Located (region (tolerance g)) (Tolerance (Surface.Within (measured Millimetre (tolerance g)))),
     Located (region (x start)) (From (pointOf (isFlat sheet) start))

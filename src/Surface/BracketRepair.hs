@@ -262,6 +262,8 @@ atLineEnd f =
       w == "allowed"
         || w `elem` ["on", "off"] && opening f == "coolant"
         || w `elem` ["cw", "ccw"] && opening f == "spindle"
+        || w == "s" && opening f == "dwell"
+        || w == "stop" && opening f == "optional"
         || w == "{" && Symbol "}" `elem` map shape (drop k (tokens f))
   ]
     <> [ RepairCandidate [Exchange (k - 1) []] 3 ("Leave " <> quote (spelling (shape t)) <> " out")

@@ -246,6 +246,7 @@ unitMeant word = listToMaybe ([u | u <- units, u == small] <> [u | (w, u) <- oth
 numberFixes :: Region -> Text -> TokenContext -> [Fix]
 numberFixes region text around
   | Just unit <- unitMeant rest, isPlain = [put (digits <> " " <> unit)]
+  | rest == "s" && isPlain && isDwell = [put (digits <> " s")]
   | Text.all (\c -> isDigit c || c == '_') text = [put (Text.filter isDigit text)]
   | Just zeros <- exponentOf rest, Text.all isDigit digits = [put (digits <> zeros)]
   | [_, _, _] <- Text.splitOn "." text,
@@ -262,6 +263,7 @@ numberFixes region text around
     (digits, rest) = Text.span (\c -> isDigit c || c == '.') text
     isPlain = Text.count "." digits <= 1 && not (Text.null rest)
     isName = maybe False (isAlpha . fst) (Text.uncons rest) && not (Text.any (== '.') rest)
+    isDwell = take 1 (reverse (map shape (before around))) == [Word "dwell"]
     isDefined = case map shape (before around) of
       [Word word] -> word `elem` ["let", "param", "contour", "table", "curve", "piece", "part"]
       _ -> False

@@ -456,6 +456,7 @@ isStatementEnd :: Bool -> Bool -> Int -> Token -> [Token] -> Bool
 isStatementEnd hasBlock isInBlock open t others =
   beginsStatement t && not isInOwnBlock
     || isBlockStatement
+    || isSoftStatement
     || isMisspeltKeyword
     || isInBlock && open <= 0 && shape t == Symbol "}"
   where
@@ -466,6 +467,19 @@ isStatementEnd hasBlock isInBlock open t others =
     isBlockStatement = case shape t of
       Word word -> newLine t && open <= 0 && word `elem` Keyword.blocks
       _ -> False
+    -- True if @t@ is a word such as @stop@ that begins a line, alone or before a number, outside of
+    -- the broken statement's braces.
+    isSoftStatement = case shape t of
+      Word word ->
+        newLine t && open <= 0
+          && word `elem` Keyword.softStatements
+          && (isInBlock || not (closesBeforeStatement others))
+          && maybe True isAfterSoft (listToMaybe others)
+      _ -> False
+    isAfterSoft next = case shape next of
+      Number _ _ -> True
+      BadNumber _ -> True
+      _ -> newLine next
     -- True if @t@ and the next token are two words at the start of a line outside of the broken
     -- statement's braces, and @t@ is no keyword. Such a line begins a misspelt statement.
     isMisspeltKeyword = case (shape t, others) of

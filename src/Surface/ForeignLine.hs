@@ -115,11 +115,17 @@ statements m ws = feed <> concatMap command ws <> moves
   where
     feed = ["feed " <> decimal f <> " mm/min" | ('F', f) <- ws]
     command (letter, number) = case (letter, code number) of
+      ('M', 0) -> ["stop"]
+      ('M', 1) -> ["optional stop"]
       ('M', 3) -> ["spindle cw" <> turns]
       ('M', 4) -> ["spindle ccw" <> turns]
       ('M', 5) -> ["spindle off"]
       ('M', 8) -> ["coolant on"]
       ('M', 9) -> ["coolant off"]
+      ('O', n) | n >= 1 && n <= 9999 -> ["program " <> Text.pack (show n)]
+      ('G', n) | n >= 54 && n <= 59 -> ["work " <> Text.pack (show n)]
+      -- Without a decimal point, some controls take P for milliseconds.
+      ('G', 4) -> ["dwell " <> decimal p <> " s" | ('P', p) <- ws, Text.any (== '.') p]
       _ -> []
     turns = maybe "" (\s -> " " <> s <> " rpm") (speed m)
     moves =
@@ -161,11 +167,14 @@ majorWords =
   Text.words
     "POINT LINE CIRCLE VECTOR PATERN TABCYL GOLFT GORGT GOFWD GOBACK GOUP GODOWN GOTO GODLTA GO \
     \FROM CUTTER FEDRAT INTOL OUTTOL TOLER SPINDL COOLNT PARTNO MACHIN INDIRV INDIRP TLLFT TLRGT \
-    \TLON TLONPS FINI LOADTL CLPRNT NOPOST REMARK MACRO LOOPST LOOPND RAPID DELAY PSIS THICK ZSURF"
+    \TLON TLONPS FINI STOP OPSTOP LOADTL CLPRNT NOPOST REMARK MACRO LOOPST LOOPND RAPID DELAY PSIS \
+    \THICK ZSURF"
 
 -- | The statement, or the value, for an APT statement: its major word and its minor words.
 aptStatement :: Text -> [Text] -> Maybe Text
 aptStatement major minor
+  | major == "STOP" = Just "stop"
+  | major == "OPSTOP" = Just "optional stop"
   | not (all isSimple minor || major == "PARTNO") = Nothing
   | otherwise = case (major, minor) of
     ("POINT", [a, b]) -> Just (point a b Nothing)
@@ -185,13 +194,13 @@ aptStatement major minor
     ("FROM", ps) -> ("from " <>) <$> place ps
     ("GOTO", ps) -> ("move " <>) <$> place ps
     ("FEDRAT", f : _) -> Just ("feed " <> f <> " mm/min")
-    ("TOLER", [t]) -> Just ("tolerance " <> t <> " mm")
-    ("OUTTOL", [t]) -> Just ("tolerance " <> t <> " mm")
+    (_, [t]) | major `elem` ["TOLER", "OUTTOL"] -> Just ("tolerance " <> t <> " mm")
     ("SPINDL", ["OFF"]) -> Just "spindle off"
     ("SPINDL", [s, "CLW"]) -> Just ("spindle cw " <> s <> " rpm")
     ("SPINDL", [s, "CCLW"]) -> Just ("spindle ccw " <> s <> " rpm")
     ("COOLNT", ["OFF"]) -> Just "coolant off"
     ("COOLNT", [_]) -> Just "coolant on"
+    ("DELAY", [t]) -> Just ("dwell " <> t <> " s")
     ("PARTNO", ts) -> Just (partStatement (Text.intercalate ", " ts))
     _ -> Nothing
   where

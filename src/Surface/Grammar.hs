@@ -33,6 +33,7 @@ import Surface.Keyword qualified as Keyword
 import Surface.Syntax
 import Surface.Token (Token (..), Token_ (..))
 import Surface.Token qualified as Token
+import Surface.TokenGrammar (cutterSide, lineDone, machine, misfit, sense, text')
 import Text.Megaparsec ((<?>), (<|>))
 import Text.Megaparsec qualified as Parsec
 import Prelude hiding (span)
@@ -71,11 +72,14 @@ statementForms =
   [ ("part", Part <$> name <*> Parsec.optional (onThisLine text')),
     ("machine", Machine <$> (onThisLine (located machine) <?> "the name of a machine")),
     ("import", Import <$> (text' <?> "the name of a file in quotation marks")),
-    ("tool", Tool <$> onSameLine "a cutter" cutter),
+    ("tool", firstTool),
     ("feed", Feed <$> onSameLine "a feed" expr),
     ("tolerance", Tolerance <$> accuracy),
     ("clearance", Clearance <$> expr),
     ("from", From <$> expr),
+    ("work", WorkOffset <$> onSameLine "the number of a work offset" expr),
+    ("program", ProgramNumber <$> onSameLine "the number of the program" expr),
+    ("safe", SafeHeight <$> onSameLine "a height" expr),
     ("let", definition),
     ("param", Param <$> name <* symbol "=" <*> expr),
     ("contour", contour),
@@ -95,10 +99,19 @@ statementForms =
     ),
     ("rapid", Travel RapidMotion <$> stops),
     ("move", Travel FeedMotion <$> stops),
-    ("change", Change <$> onSameLine "the number of a tool" expr <*> onSameLine "a cutter" cutter),
+    ( "change",
+      Change <$> onSameLine "the number of a tool" expr
+        <*> onSameLine "a cutter" cutter
+        <*> Parsec.optional (onThisLine (keyword "at" *> expr))
+    ),
     ("spindle", Spindle <$> spin),
     ("coolant", Coolant <$> ((SwitchOn <$ keyword "on") <|> (SwitchOff <$ keyword "off"))),
     ("aux", Auxiliary <$> expr),
+    ("stop", pure ProgramStop),
+    ("optional", OptionalStop <$ onSameLine "‘stop’" (keyword "stop")),
+    ( "dwell",
+      Dwell <$> onSameLine "a number of seconds" expr <* onSameLine "‘s’" (keyword "s")
+    ),
     ( "for",
       forEach >>= \(variable, from) ->
         Repeat variable from <$> statementBlock RepetitionBlock statement
@@ -120,22 +133,12 @@ statementForms =
                  <*> Parsec.option [] otherwise'
            )
 
--- | A text in quotation marks.
-text' :: Parser (Located Text)
-text' = located (token "a text" textOf)
-  where
-    textOf t = case shape t of
-      Text x -> Just x
-      _ -> Nothing
-
--- | The name of a machine or of a file that describes one.
-machine :: Parser MachineRef
-machine = token "the name of a machine" machineOf
-  where
-    machineOf t = case shape t of
-      Word x -> Just (Named x)
-      Text x -> Just (Described x)
-      _ -> Nothing
+-- | The first tool after its keyword: a cutter, with a number before it if the tool has one.
+firstTool :: Parser Statement_
+firstTool =
+  onSameLine "a cutter" $
+    (Tool Nothing <$> cutter)
+      <|> (Tool . Just <$> Parsec.hidden expr <*> onSameLine "a cutter" cutter)
 
 -- | A cutter: @mill(diameter 20 mm)@, @drill(…)@, @turn(…)@, @cone(…)@, @blade(…)@.
 cutter :: Parser Cutter
@@ -143,7 +146,7 @@ cutter =
   located $
     one "mill" "diameter" MillCutter
       <|> one "drill" "diameter" DrillCutter
-      <|> one "turn" "nose" TurningCutter
+      <|> (keyword "turn" *> parens (TurningCutter <$> measured "nose" <*> Parsec.optional tip))
       <|> ( keyword "cone"
               *> parens
                 ( ConeCutter
@@ -158,6 +161,7 @@ cutter =
   where
     one kind measure make = keyword kind *> parens (make <$> measured measure)
     measured measure = keyword measure *> expr
+    tip = symbol "," *> measured "tip"
     further measure form = (symbol "," <?> form) *> measured measure
     coneForm = "the rest of cone(diameter 20 mm, bevel 5 deg, height 30 mm)"
     bladeForm = "the rest of blade(diameter 20 mm, gear 70 mm)"
@@ -167,12 +171,12 @@ accuracy :: Parser Accuracy
 accuracy =
   (keyword "inside" *> (Between <$> expr <* keyword "outside" <*> expr)) <|> (Within <$> expr)
 
--- | The command to a spindle: a sense with an optional speed, or @off@.
+-- | The command to a spindle: a sense with an optional speed, @off@ or @manual@.
 spin :: Parser Spin
-spin = (SpindleStop <$ keyword "off") <|> (Spinning <$> sense <*> Parsec.optional (onThisLine expr))
-
-sense :: Parser Sense
-sense = (Clockwise <$ keyword "cw") <|> (CounterClockwise <$ keyword "ccw")
+spin =
+  (SpindleStop <$ keyword "off")
+    <|> (SpindleByHand <$ keyword "manual")
+    <|> (Spinning <$> sense <*> Parsec.optional (onThisLine expr))
 
 -- | The definition of a value or of a function, after the keyword @let@.
 definition :: Parser Statement_
@@ -210,21 +214,6 @@ line =
       number
         <|> Parsec.hidden (located (Negate <$> (symbol "-" *> (number <|> misfit NotInRow))))
         <|> parens expr
-
--- | Fails at the next token, which begins no cell or heading of a table. @problem@ makes the
--- failure from the token.
-misfit :: (Token_ -> Problem) -> Parser a
-misfit problem =
-  Parsec.lookAhead Parsec.anySingle >>= \t -> Parsec.customFailure (problem (shape t))
-
--- | Demands the end of a table's line or the closing brace of the table. @problem@ makes the
--- failure from any other token.
-lineDone :: (Token_ -> Problem) -> Parser ()
-lineDone problem = do
-  next <- remaining
-  case next of
-    t : _ | not (newLine t) && shape t /= Symbol "}" -> misfit problem
-    _ -> pure ()
 
 -- | A piece: @q = skin cipher 2(2.5), 4(mu, H) left joggle from 10 to 40 depth 2 radius 5@.
 piece :: Parser Statement_
@@ -324,15 +313,7 @@ link =
 -- the statement from these three.
 machining :: Text -> (Expr -> Located Side -> [Setting] -> Statement_) -> Parser Statement_
 machining word make =
-  make <$> expr <*> located (Parsec.choice [s <$ keyword k | (k, s) <- sides]) <*> settings word
-  where
-    sides =
-      [ ("outside", Outside),
-        ("inside", Inside),
-        ("left", LeftSide),
-        ("right", RightSide),
-        ("on", On)
-      ]
+  make <$> expr <*> located cutterSide <*> settings word
 
 -- | The block of settings of a statement with the keyword @word@.
 settings :: Text -> Parser [Setting]

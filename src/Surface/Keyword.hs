@@ -28,9 +28,9 @@ statements =
     <> ["mill", "turn", "drill", "rapid", "move", "change", "spindle", "coolant", "aux", "with"]
 
 -- | The words that begin a statement at the start of a line and are names elsewhere, as in
--- @contour pocket closed@.
+-- @contour pocket closed@. Some of them are whole statements, some need a word after them.
 softStatements :: [Text]
-softStatements = ["pocket"]
+softStatements = ["pocket", "work", "program", "safe", "stop", "optional", "dwell"]
 
 -- | The keywords that begin a repetition or a choice, either of statements or of items of a
 -- contour.

@@ -17,6 +17,7 @@ import Data.Char (isDigit)
 import Data.List (transpose)
 import Data.List.NonEmpty (NonEmpty (..))
 import Data.List.NonEmpty qualified as NonEmpty
+import Data.Maybe (maybeToList)
 import Data.Text (Text)
 import Data.Text qualified as Text
 import Surface.Alignment (AlignedLine (..), AlignmentColumn (..), LineCells (..))
@@ -96,11 +97,14 @@ statement comments indent (Located _ s) = case s of
     plain (spaced (map Text ("part" : name : maybe [] (\t -> [quoted (Region.value t)]) title)))
   Machine (Located _ ref) -> worded "machine" (Text (machineRef ref))
   Import (Located _ file) -> worded "import" (Text (quoted file))
-  Tool c -> worded "tool" (cutter comments c)
+  Tool number c -> worded "tool" (spaced (map value (maybeToList number) <> [cutter comments c]))
   Feed e -> worded "feed" (value e)
   Tolerance a -> worded "tolerance" (accuracy comments a)
   Clearance e -> worded "clearance" (value e)
   From e -> worded "from" (value e)
+  WorkOffset e -> worded "work" (value e)
+  ProgramNumber e -> worded "program" (value e)
+  SafeHeight e -> worded "safe" (value e)
   LetValue (Located _ (Name name)) e -> defined ("let " <> name) e
   LetFunction (Located _ (Name name)) parameters e ->
     defined ("let " <> name <> "(" <> names parameters <> ")") e
@@ -137,11 +141,16 @@ statement comments indent (Located _ s) = case s of
           else braces indent before (concatMap (setting comments (indent + 2)) settings)
   Travel RapidMotion to -> worded "rapid" (stops comments to)
   Travel FeedMotion to -> worded "move" (stops comments to)
-  Change place c -> worded "change" (spaced [value place, cutter comments c])
+  Change number c place ->
+    let point = concat [[Text "at", value p] | Just p <- [place]]
+     in worded "change" (spaced ([value number, cutter comments c] <> point))
   Spindle spin -> worded "spindle" (spinning spin)
   Coolant SwitchOn -> worded "coolant" (Text "on")
   Coolant SwitchOff -> worded "coolant" (Text "off")
   Auxiliary e -> worded "aux" (value e)
+  ProgramStop -> plain (Text "stop")
+  OptionalStop -> plain (Text "optional stop")
+  Dwell e -> worded "dwell" (spaced [value e, Text "s"])
   Repeat (Located _ (Name name)) from inside ->
     braces indent (spaced [Text ("for " <> name <> " in"), value from]) (block inside)
   When condition yes no -> alternatives choices indent (Text "if") (Choice condition yes no)
@@ -160,6 +169,7 @@ statement comments indent (Located _ s) = case s of
         (concatMap (setting comments (indent + 2)) settings)
     spinning spin = case spin of
       SpindleStop -> Text "off"
+      SpindleByHand -> Text "manual"
       Spinning sense speed -> spaced (Text (senseName sense) : maybe [] (\e -> [value e]) speed)
     choices = ChoicePrinter {conditionOf = value, blockOf = block, onlyChoice = onlyWhen}
     onlyWhen inside = case inside of
@@ -284,7 +294,9 @@ cutter :: CommentPositions -> Cutter -> Doc
 cutter comments (Located _ c) = case c of
   MillCutter e -> made "mill(diameter " e
   DrillCutter e -> made "drill(diameter " e
-  TurningCutter e -> made "turn(nose " e
+  TurningCutter e tip ->
+    let direction = concat [[Text ", tip ", value n] | Just n <- [tip]]
+     in Beside ([Text "turn(nose ", value e] <> direction <> [Text ")"])
   ConeCutter d a h ->
     Beside
       [ Text "cone(diameter ",

@@ -70,7 +70,8 @@ optionalWords =
     ("retract", [",", "rapid", "feed"]),
     ("rapid", [","]),
     ("move", [","]),
-    ("assert", ["within"])
+    ("assert", ["within"]),
+    ("change", ["at"])
   ]
 
 -- | Other words or signs instead of the wrong token.

@@ -60,7 +60,7 @@ cutterForms :: [(Text, Text)]
 cutterForms =
   [ ("cone", "cone(diameter 20 mm, bevel 5 deg, height 30 mm)"),
     ("blade", "blade(diameter 20 mm, gear 70 mm)"),
-    ("turn", "turn(nose 0.8 mm)")
+    ("turn", "turn(nose 0.8 mm), or turn(nose 0.8 mm, tip 2)")
   ]
 
 -- | The tokens before the wrong one on its line, the nearest first. If it begins a line, those of
@@ -109,11 +109,14 @@ statementForms =
   [ ("part", "part bracket \"Bracket 12 mm\""),
     ("machine", "machine iso6983"),
     ("import", "import \"ear.part\""),
-    ("tool", "tool mill(diameter 12 mm)"),
+    ("tool", "tool mill(diameter 12 mm), or with a number tool 1 mill(diameter 12 mm)"),
     ("feed", "feed 60 mm/min"),
     ("tolerance", "tolerance 0.02 mm, or tolerance inside 0.01 outside 0.02"),
     ("clearance", "clearance 5 mm"),
     ("from", "from (0, 0)"),
+    ("work", "work 54"),
+    ("program", "program 1234"),
+    ("safe", "safe 40 mm"),
     ("let", "let a = 5 mm, or for a function let f(x) = 2 * x"),
     ("param", "param a = 5 mm"),
     ("contour", "contour edge closed { … }, or open instead of closed"),
@@ -129,10 +132,13 @@ statementForms =
     ("drill", "drill at (10, 20) depth 15 { peck 5 }"),
     ("rapid", "rapid (0, 0)"),
     ("move", "move (0, 0) feed 30"),
-    ("change", "change 2 drill(diameter 5 mm)"),
-    ("spindle", "spindle cw 900 rpm, or spindle off"),
+    ("change", "change 2 drill(diameter 5 mm), or change 2 drill(diameter 5 mm) at (0, 0)"),
+    ("spindle", "spindle cw 900 rpm, or spindle off, or spindle manual"),
     ("coolant", "coolant on, or coolant off"),
     ("aux", "aux 8"),
+    ("stop", "stop"),
+    ("optional", "optional stop"),
+    ("dwell", "dwell 2 s"),
     ("for", "for i in 1..3 { … }"),
     ("if", "if a < b { … } else { … }"),
     ("with", "with moved((10, 0)) { … }")

@@ -79,8 +79,8 @@ data Statement_
     Machine (Located MachineRef)
   | -- | @import "bolts.part"@
     Import (Located Text)
-  | -- | @tool mill(diameter 20 mm)@
-    Tool Cutter
+  | -- | @tool mill(diameter 20 mm)@ and @tool 1 mill(diameter 20 mm)@: the number, the cutter
+    Tool (Maybe Expr) Cutter
   | -- | @feed 60 mm/min@
     Feed Expr
   | -- | @tolerance 0.02 mm@
@@ -89,6 +89,12 @@ data Statement_
     Clearance Expr
   | -- | @from (0, 0)@
     From Expr
+  | -- | @work 54@: the number of the work offset
+    WorkOffset Expr
+  | -- | @program 1234@: the number of the program
+    ProgramNumber Expr
+  | -- | @safe 40 mm@: the safe height
+    SafeHeight Expr
   | -- | @let r = 9@
     LetValue (Located Name) Expr
   | -- | @let lug(a) = …@
@@ -115,14 +121,21 @@ data Statement_
     Drill Expr Expr [Setting]
   | -- | @rapid p, q@ and @move p, q feed f@
     Travel DefaultPace (NonEmpty Stop)
-  | -- | @change 2 drill(diameter 5 mm)@
-    Change Expr Cutter
+  | -- | @change 2 drill(diameter 5 mm)@ and @change 2 drill(diameter 5 mm) at (0, 0)@: the number,
+    -- the cutter, the point at which the tool is changed
+    Change Expr Cutter (Maybe Expr)
   | -- | @spindle cw 800 rpm@
     Spindle Spin
   | -- | @coolant on@
     Coolant Switch
   | -- | @aux 3@
     Auxiliary Expr
+  | -- | @stop@: the program waits for the operator
+    ProgramStop
+  | -- | @optional stop@: it waits if a switch of the control asks for it
+    OptionalStop
+  | -- | @dwell 2 s@: the number of seconds
+    Dwell Expr
   | -- | @for p in holes { … }@
     Repeat (Located Name) Expr [Statement]
   | -- | @if with_slot { … } else { … }@
@@ -147,8 +160,8 @@ data Cutter_
     MillCutter Expr
   | -- | @drill(diameter d)@
     DrillCutter Expr
-  | -- | @turn(nose r)@
-    TurningCutter Expr
+  | -- | @turn(nose r)@ and @turn(nose r, tip n)@: the radius of the nose, the direction of its tip
+    TurningCutter Expr (Maybe Expr)
   | -- | @cone(diameter d, bevel a, height h)@: a conical mill. The arguments are the diameter of
     -- the tip of the mill, the bevel of its flank, and the height of the contour above the tip.
     ConeCutter Expr Expr Expr
@@ -170,8 +183,9 @@ data Accuracy
 data DefaultPace = RapidMotion | FeedMotion
   deriving stock (Eq, Show, Enum, Bounded)
 
--- | The command to a spindle: a sense with an optional speed, or a stop.
-data Spin = Spinning Sense (Maybe Expr) | SpindleStop
+-- | The command to a spindle: a sense with an optional speed, a stop, or the statement that it is
+-- switched by hand.
+data Spin = Spinning Sense (Maybe Expr) | SpindleStop | SpindleByHand
   deriving stock (Eq, Show)
 
 -- | The command to the coolant: on or off.

@@ -81,12 +81,15 @@ ofStatement (Located _ s) = case s of
   Part _ _ -> []
   Machine _ -> []
   Import _ -> []
-  Tool c -> ofCutter c
+  Tool number c -> maybeToList number <> ofCutter c
   Feed e -> [e]
   Tolerance (Within e) -> [e]
   Tolerance (Between a b) -> [a, b]
   Clearance e -> [e]
   From e -> [e]
+  WorkOffset e -> [e]
+  ProgramNumber e -> [e]
+  SafeHeight e -> [e]
   LetValue _ e -> [e]
   LetFunction _ _ e -> [e]
   Param _ e -> [e]
@@ -101,11 +104,15 @@ ofStatement (Located _ s) = case s of
   Turn e _ settings -> e : concatMap ofSetting settings
   Drill e deep settings -> e : deep : concatMap ofSetting settings
   Travel _ stops -> concatMap ofStop (NonEmpty.toList stops)
-  Change e c -> e : ofCutter c
+  Change e c place -> e : ofCutter c <> maybeToList place
   Spindle (Spinning _ e) -> maybeToList e
   Spindle SpindleStop -> []
+  Spindle SpindleByHand -> []
   Coolant _ -> []
   Auxiliary e -> [e]
+  ProgramStop -> []
+  OptionalStop -> []
+  Dwell e -> [e]
   Repeat _ e _ -> [e]
   When e _ _ -> [e]
   With e _ -> [e]
@@ -177,7 +184,7 @@ ofCutter :: Cutter -> [Expr]
 ofCutter (Located _ c) = case c of
   MillCutter e -> [e]
   DrillCutter e -> [e]
-  TurningCutter e -> [e]
+  TurningCutter e tip -> e : maybeToList tip
   ConeCutter a b d -> [a, b, d]
   BladeCutter a b -> [a, b]
 

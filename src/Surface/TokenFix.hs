@@ -95,7 +95,8 @@ unexpectedFixes region token expected around =
       bracketFixes,
       commaFixes token words' around,
       danglingFixes token around expected,
-      cutterFixes region token words'
+      cutterFixes region token words',
+      sizeFixes expected around
     ]
   where
     words' =
@@ -164,6 +165,15 @@ cutterFixes region token words' = case token of
   Number _ _ -> [cutterFix region kind | kind <- ["mill", "drill"], kind `elem` words']
   _ -> []
 
+-- | Proposals for the size of a cutter in place of the cutter, at the end of a line.
+sizeFixes :: [Text] -> TokenContext -> [Fix]
+sizeFixes expected around = case previous around of
+  Just Token {shape = Number _ _, place}
+    | expected == ["a cutter"],
+      StatementForm.blockWord around == "tool" ->
+      [cutterFix place kind | kind <- ["mill", "drill"]]
+  _ -> []
+
 -- | Writes the cutter of a kind around the number of its diameter.
 cutterFix :: Region -> Text -> Fix
 cutterFix region kind =
@@ -181,7 +191,8 @@ trailingFixes region token around = case settingOfMotion token around of
     [Fix.exchange "Write feed: plunge belongs to mill, pocket and drill." region "feed"]
   Just _ -> []
   Nothing ->
-    firstFixes [pointBrackets, newLines, signFixes region token around, repairs around, others]
+    firstFixes
+      [partFixes token around, pointBrackets, newLines, signFixes region token around, repairs around, others]
   where
     newLines = case token of
       Word word
@@ -211,6 +222,14 @@ trailingFixes region token around = case settingOfMotion token around of
       Number _ _ -> True
       Symbol s -> s `elem` [",", "-"]
       _ -> False
+
+-- | Fix for a program with a name and a title, as other languages begin it.
+partFixes :: Token_ -> TokenContext -> [Fix]
+partFixes token around = case (token, reverse (before around)) of
+  (Text _, keyword : _)
+    | shape keyword == Word "program" ->
+      [Fix.exchange "Write ‘part’ instead of ‘program’." (place keyword) "part"]
+  _ -> []
 
 -- | The word of a setting of other statements, such as @depth@, before a number in a motion.
 settingOfMotion :: Token_ -> TokenContext -> Maybe Text

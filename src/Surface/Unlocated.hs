@@ -33,41 +33,56 @@ statement s = case s of
   Part name title -> Part (here name) (fmap here title)
   Machine ref -> Machine (here ref)
   Import file -> Import (here file)
-  Tool c -> Tool (unlocated cutter c)
+  Tool number c -> Tool (fmap expr number) (unlocated cutter c)
   Feed e -> Feed (expr e)
-  Tolerance (Within e) -> Tolerance (Within (expr e))
-  Tolerance (Between a b) -> Tolerance (Between (expr a) (expr b))
+  Tolerance a -> Tolerance (accuracy a)
   Clearance e -> Clearance (expr e)
   From e -> From (expr e)
+  WorkOffset e -> WorkOffset (expr e)
+  ProgramNumber e -> ProgramNumber (expr e)
+  SafeHeight e -> SafeHeight (expr e)
   LetValue name e -> LetValue (here name) (expr e)
   LetFunction name parameters e -> LetFunction (here name) (fmap here parameters) (expr e)
   Param name e -> Param (here name) (expr e)
   Contour name closure items -> Contour (here name) (here closure) (map (unlocated item) items)
-  Table name (LinesFromFile file) -> Table (here name) (LinesFromFile (here file))
-  Table name (WrittenLines ls) -> Table (here name) (WrittenLines (concatMap line ls))
+  Table name ls -> Table (here name) (lines' ls)
   Curve name e -> Curve (here name) (expr e)
-  Piece name e ciphers side joggles ->
-    Piece
-      (here name)
-      (expr e)
-      (map (unlocated cipher) ciphers)
-      (here side)
-      (map (unlocated joggle) joggles)
+  Piece name e cs side joggles ->
+    let ciphers = map (unlocated cipher) cs
+     in Piece (here name) (expr e) ciphers (here side) (map (unlocated joggle) joggles)
   Assert e within -> Assert (expr e) (fmap expr within)
   Mill e side settings -> Mill (expr e) (here side) (map (unlocated setting) settings)
   Pocket e step settings -> Pocket (expr e) (expr step) (map (unlocated setting) settings)
   Turn e side settings -> Turn (expr e) (here side) (map (unlocated setting) settings)
   Drill at depth settings -> Drill (expr at) (expr depth) (map (unlocated setting) settings)
   Travel motion stops -> Travel motion (fmap stop stops)
-  Change place c -> Change (expr place) (unlocated cutter c)
-  Spindle (Spinning sense speed) -> Spindle (Spinning sense (fmap expr speed))
-  Spindle SpindleStop -> Spindle SpindleStop
+  Change number c place -> Change (expr number) (unlocated cutter c) (fmap expr place)
+  Spindle spin -> Spindle (command spin)
   Coolant switch -> Coolant switch
   Auxiliary e -> Auxiliary (expr e)
+  ProgramStop -> ProgramStop
+  OptionalStop -> OptionalStop
+  Dwell e -> Dwell (expr e)
   Repeat name from inside -> Repeat (here name) (expr from) (statements inside)
   When condition yes no -> When (expr condition) (statements yes) (statements no)
   With e inside -> With (expr e) (statements inside)
   Broken word name -> Broken word (fmap here name)
+
+accuracy :: Accuracy -> Accuracy
+accuracy a = case a of
+  Within e -> Within (expr e)
+  Between inside outside -> Between (expr inside) (expr outside)
+
+command :: Spin -> Spin
+command spin = case spin of
+  Spinning sense speed -> Spinning sense (fmap expr speed)
+  SpindleStop -> SpindleStop
+  SpindleByHand -> SpindleByHand
+
+lines' :: Lines -> Lines
+lines' ls = case ls of
+  LinesFromFile file -> LinesFromFile (here file)
+  WrittenLines written -> WrittenLines (concatMap line written)
 
 line :: TableLine -> [TableLine]
 line (Located _ l) = map (Located nowhere) $ case l of
@@ -99,7 +114,7 @@ cutter :: Cutter_ -> Cutter_
 cutter c = case c of
   MillCutter e -> MillCutter (expr e)
   DrillCutter e -> DrillCutter (expr e)
-  TurningCutter e -> TurningCutter (expr e)
+  TurningCutter e tip -> TurningCutter (expr e) (fmap expr tip)
   ConeCutter d a h -> ConeCutter (expr d) (expr a) (expr h)
   BladeCutter d g -> BladeCutter (expr d) (expr g)
 

@@ -109,7 +109,16 @@ softWords =
     "pocket",
     "islands",
     "rest",
-    "allowed"
+    "allowed",
+    "work",
+    "program",
+    "safe",
+    "stop",
+    "optional",
+    "dwell",
+    "manual",
+    "tip",
+    "s"
   ]
 
 number :: Gen Numeral
@@ -138,11 +147,14 @@ statement n = at (frequency ([(1, s) | s <- simple] <> [(3, s) | n > 0, s <- dee
       [ Part <$> at name <*> maybe' (at title),
         Machine <$> at (oneof [Named <$> machine, Described <$> title]),
         Import <$> at title,
-        Tool <$> cutter n,
+        Tool <$> maybe' (expr n) <*> cutter n,
         Feed <$> expr n,
         Tolerance <$> oneof [Within <$> expr n, Between <$> expr n <*> expr n],
         Clearance <$> expr n,
         From <$> expr n,
+        WorkOffset <$> expr n,
+        ProgramNumber <$> expr n,
+        SafeHeight <$> expr n,
         LetValue <$> at name <*> expr (n + 1),
         LetFunction <$> at name <*> nonEmpty 2 (at name) <*> expr (n + 1),
         Param <$> at name <*> expr n,
@@ -157,10 +169,15 @@ statement n = at (frequency ([(1, s) | s <- simple] <> [(3, s) | n > 0, s <- dee
         Assert <$> expr (n + 1) <*> maybe' (expr n),
         Drill <$> expr n <*> expr n <*> some' 3 (setting n),
         Travel <$> every <*> nonEmpty 3 (stop n),
-        Change <$> expr n <*> cutter n,
-        Spindle <$> oneof [pure SpindleStop, Spinning <$> every <*> maybe' (expr n)],
+        Change <$> expr n <*> cutter n <*> maybe' (expr n),
+        Spindle
+          <$> oneof
+            [pure SpindleStop, pure SpindleByHand, Spinning <$> every <*> maybe' (expr n)],
         Coolant <$> every,
-        Auxiliary <$> expr n
+        Auxiliary <$> expr n,
+        pure ProgramStop,
+        pure OptionalStop,
+        Dwell <$> expr n
       ]
     deep =
       [ Contour <$> at name <*> at every <*> some' 5 (item (n - 1)),
@@ -213,7 +230,7 @@ cutter n =
     ( oneof
         [ MillCutter <$> expr n,
           DrillCutter <$> expr n,
-          TurningCutter <$> expr n,
+          TurningCutter <$> expr n <*> maybe' (expr n),
           ConeCutter <$> expr n <*> expr n <*> expr n,
           BladeCutter <$> expr n <*> expr n
         ]
