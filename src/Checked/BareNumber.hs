@@ -164,8 +164,9 @@ typedExpressions s = case value s of
   Feed e -> [(Just Type.feed, e)]
   Clearance e -> [(Just Type.len, e)]
   Tolerance _ -> lengths
-  Tool _ -> []
-  Change _ _ -> []
+  SafeHeight e -> [(Just Type.len, e)]
+  Tool _ _ -> []
+  Change _ _ place -> [(Nothing, e) | Just e <- [place]]
   Spindle _ -> [(Just Type.spindleSpeed, e) | e <- SyntaxWalk.ofStatement s]
   Drill e f settings -> (Nothing, e) : (Just Type.len, f) : concatMap typedSetting settings
   Mill e _ settings -> (Nothing, e) : concatMap typedSetting settings

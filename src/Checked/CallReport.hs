@@ -9,7 +9,7 @@ module Checked.CallReport
     argumentCountReport,
     bothReport,
     swappedReport,
-    toolLetterReport,
+    numberLetterReport,
     vectorReport,
     arguments,
   )
@@ -132,12 +132,16 @@ bothReport region BothUses {argument, firstUse = (r, t, call), otherUse = (t', c
         ]
     }
 
--- | The report of the number of a tool that is written with the letter T.
-toolLetterReport :: Region -> Text -> Text -> Report
-toolLetterReport region name digits =
+-- | The report of a number that is written with a letter before it. @what@ names the number.
+numberLetterReport :: Region -> Text -> Text -> Text -> Report
+numberLetterReport region name digits what =
   (at region "E0201" ("nothing is named " <> quote name))
     { fixes =
-        [Fix.exchange ("Write the number of the tool without T: " <> digits) region digits]
+        [ Fix.exchange
+            ("Write " <> what <> " without " <> Text.take 1 name <> ": " <> digits)
+            region
+            digits
+        ]
     }
 
 -- | The report of numbers as arguments of a function, in place of vectors. Each has the name of its

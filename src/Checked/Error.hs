@@ -5,7 +5,6 @@
 -- A form of a function is one list of parameters with which it can be called.
 module Checked.Error
   ( Error (..),
-    RequiredSetting (..),
     UndefinedOperation (..),
     StatementMove (..),
     LabelChange (..),
@@ -25,6 +24,8 @@ import Checked.ListError (listReport)
 import Checked.NameMeaning qualified as NameMeaning
 import Checked.PieceError (PieceError)
 import Checked.PieceError qualified as PieceError
+import Checked.ProgramSetting (ProgramSetting (..))
+import Checked.ProgramSetting qualified as ProgramSetting
 import Checked.Syntax (Operator (..))
 import Checked.Type (Type (..))
 import Checked.Type qualified as Type
@@ -116,8 +117,8 @@ data Error
   | -- | a space between the name of a function and the bracket of its arguments: the name, and the
     -- space
     CallApart Region Name Region
-  | -- | the number of a tool with the letter T: the name, its digits
-    ToolLetter Region Name Text
+  | -- | a number with a letter before it: the name, its digits, the words for the number
+    NumberLetter Region Name Text Text
   | -- | numbers in place of vectors in one call: the function, the regions of the numbers, each
     -- with the name of its parameter, and the call with the names of all parameters
     NumberForVector Region Name [(Region, Text)] Text
@@ -131,11 +132,11 @@ data Error
     NoPart Region
   | -- | a setting of the whole program that occurs again: the setting, and the region of its first
     -- statement
-    SettingTwice Region RequiredSetting Region
+    SettingTwice Region ProgramSetting Region
   | -- | a statement that needs settings above it which are missing: the keyword of the statement,
     -- the missing settings, and for each the region of a statement below that gives it. The report
     -- points at the keyword
-    SettingsMissing Region Text (NonEmpty (RequiredSetting, Maybe Region))
+    SettingsMissing Region Text (NonEmpty (ProgramSetting, Maybe Region))
   | -- | a name that is used in its own definition: the name
     Recursive Region Name
   | -- | arguments that fit no form of a built-in function: the function, the regions and types of
@@ -183,17 +184,6 @@ data LabelChange = LabelChange Region Text
 -- | The operation of a 'NoOperation' error.
 data UndefinedOperation = UndefinedNegation | UndefinedProduct | UndefinedQuotient
   deriving stock (Eq, Show)
-
--- | A setting that a statement such as @tool@ makes. Other statements may need it above them.
-data RequiredSetting
-  = PartSetting
-  | MachineSetting
-  | ToolSetting
-  | FeedSetting
-  | ToleranceSetting
-  | FromSetting
-  | ClearanceSetting
-  deriving stock (Eq, Ord, Show)
 
 -- | The report of a mistake.
 toReport :: Error -> Report
@@ -325,7 +315,7 @@ toReport err = case err of
   Swapped region (Name name) given form order _ -> swappedReport region name given form order
   UsedAsBoth region uses -> bothReport region uses
   CallApart region (Name name) gap -> apartReport region name gap
-  ToolLetter region (Name name) digits -> toolLetterReport region name digits
+  NumberLetter region (Name name) digits what -> numberLetterReport region name digits what
   NumberForVector region (Name name) numbers form -> vectorReport region name numbers form
   NotAFunction region (Name name) defined count ->
     (at region "E0209" (quote name <> " is a value, not a function"))
@@ -387,7 +377,7 @@ toReport err = case err of
           ]
       }
   SettingTwice region setting before ->
-    (at region "E0216" (settingWord setting <> " is set twice"))
+    (at region "E0216" (ProgramSetting.description setting <> " is set twice"))
       { label = "set again here",
         others = [Label before "first set here"],
         fixes =
@@ -401,7 +391,8 @@ toReport err = case err of
         "E0217"
         ( quote keyword
             <> " needs "
-            <> ErrorFix.joinedWords (map (settingWord . fst) (NonEmpty.toList missing))
+            <> ErrorFix.joinedWords
+              (map (ProgramSetting.description . fst) (NonEmpty.toList missing))
             <> " above it"
         )
     )
@@ -420,8 +411,9 @@ toReport err = case err of
             | all (isJust . snd) missing
           ],
         hints =
-          [ "Write above it, for example: " <> Text.intercalate "; " (map (example . fst) absent)
-            | let absent = NonEmpty.filter (isNothing . snd) missing,
+          [ "Write above it, for example: " <> Text.intercalate "; " examples
+            | let absent = NonEmpty.filter (isNothing . snd) missing
+                  examples = map (ProgramSetting.example . fst) absent,
               not (null absent)
           ]
       }
@@ -577,23 +569,3 @@ changeFix (LabelChange r new) = Fix.proposed (Fix.exchange title r new)
     title
       | Text.null new = "Leave this word out."
       | otherwise = "Write " <> Text.strip new <> " before this argument."
-
-settingWord :: RequiredSetting -> Text
-settingWord setting = case setting of
-  PartSetting -> "the name of the part"
-  MachineSetting -> "the machine"
-  ToolSetting -> "the tool"
-  FeedSetting -> "the feed"
-  ToleranceSetting -> "the tolerance"
-  FromSetting -> "the starting point"
-  ClearanceSetting -> "the clearance height"
-
-example :: RequiredSetting -> Text
-example setting = case setting of
-  PartSetting -> "part NAME"
-  MachineSetting -> "machine lkp-01f"
-  ToolSetting -> "tool mill(diameter 20 mm)"
-  FeedSetting -> "feed 60 mm/min"
-  ToleranceSetting -> "tolerance 0.02 mm"
-  FromSetting -> "from (0, 0)"
-  ClearanceSetting -> "clearance 5 mm"

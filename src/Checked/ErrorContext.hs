@@ -28,7 +28,7 @@ import Checked.ErrorFix
 import Checked.ErrorFix qualified as ErrorFix
 import Checked.ListError qualified as ListError
 import Checked.Type qualified as Type
-import Data.Char (isDigit)
+import Data.Char (isDigit, toUpper)
 import Data.Foldable (toList)
 import Data.List (find, sortOn)
 import Data.List.NonEmpty qualified as NonEmpty
@@ -53,7 +53,7 @@ complete statements errors = case errors of
   _ ->
     oncePerSum . map (completed statements) . oncePerPoint statements . oncePerName
       . CallError.oncePerCall statements
-      . map (toolLetter statements)
+      . map (numberLetter statements)
       . besideSpaces statements
       $ besideElements statements (filter (not . isLost) errors)
   where
@@ -164,18 +164,28 @@ besideSpaces statements errors = mapMaybe joined errors
       InSource r -> any (contains r) apart
       _ -> False
 
--- | An error of the number of a tool with the letter T.
-toolLetter :: [Statement] -> Error -> Error
-toolLetter statements e = case e of
+-- | An error of a number with the letter that G-code has before it: T before the number of a tool,
+-- G before a work offset, O before the number of a program.
+numberLetter :: [Statement] -> Error -> Error
+numberLetter statements e = case e of
   UndefinedName at name@(Name text) _ _
-    | Just ('T', digits') <- Text.uncons text,
+    | Just (letter, digits') <- Text.uncons text,
       Text.all isDigit digits' && not (Text.null digits'),
-      at `elem` numbers ->
-      ToolLetter at name digits'
+      (_, what) : _ <- [n | (r, n) <- numbers, r == at, fst n == toUpper letter] ->
+      NumberLetter at name digits' what
   _ -> e
   where
     numbers =
-      [region n | Located _ (Change n _) <- concatMap SyntaxWalk.statementsIn statements]
+      [ (region n, what)
+        | s <- concatMap SyntaxWalk.statementsIn statements,
+          (n, what) <- lettered (value s)
+      ]
+    lettered s = case s of
+      Change n _ _ -> [(n, ('T', "the number of the tool"))]
+      Tool (Just n) _ -> [(n, ('T', "the number of the tool"))]
+      WorkOffset n -> [(n, ('G', "the work offset"))]
+      ProgramNumber n -> [(n, ('O', "the number of the program"))]
+      _ -> []
 
 -- | The errors, with one error for each unknown name.
 oncePerName :: [Error] -> [Error]
@@ -281,7 +291,7 @@ spindleSpeed program at = go Nothing program
     everyIn = concatMap SyntaxWalk.statementsIn
     isCommand s = case s of
       Spindle _ -> True
-      Change _ _ -> True
+      Change {} -> True
       _ -> False
 
 -- | The commas between arguments that may be decimal commas: those between two numbers without

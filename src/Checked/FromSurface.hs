@@ -152,11 +152,18 @@ statement env (Located at s) = case s of
     checked <- Inference.separately (expect env Type.Transformation e)
     body' <- block env body
     done (pure ((\e' sol -> Checked.With (e' sol) (resolveAll sol body')) <$> checked))
-  Surface.Tool c -> one (fmap Checked.Tool <$> cutter env c)
+  Surface.Tool number c ->
+    one $
+      (\number' c' sol -> Checked.Tool (($ sol) <$> number') (c' sol))
+        <$> traverse (expect env Type.number) number
+          <*> cutter env c
   Surface.Feed e -> one (fmap Checked.Feed <$> expect env Type.feed e)
   Surface.Tolerance accuracy -> one (fmap Checked.Tolerance <$> tolerance env accuracy)
   Surface.Clearance e -> one (fmap Checked.Clearance <$> expect env Type.len e)
   Surface.From e -> one (fmap Checked.From <$> spatialPoint env e)
+  Surface.WorkOffset e -> one (fmap Checked.WorkOffset <$> expect env Type.number e)
+  Surface.ProgramNumber e -> one (fmap Checked.ProgramNumber <$> expect env Type.number e)
+  Surface.SafeHeight e -> one (fmap Checked.SafeHeight <$> expect env Type.len e)
   Surface.Assert e within -> one (fmap Checked.Assert <$> assertion env e within)
   Surface.Mill e side options -> one (machining env Checked.Mill "mill" e side options)
   Surface.Turn e side options -> one (machining env Checked.Turn "turn" e side options)
@@ -176,12 +183,18 @@ statement env (Located at s) = case s of
     one $
       (\ps sol -> Checked.Travel (fmap ($ sol) ps))
         <$> mapM (Settings.stop env . atPace motion) stops
-  Surface.Change e c ->
+  Surface.Change e c place ->
     one $
-      (\e' c' sol -> Checked.Change (e' sol) (c' sol)) <$> expect env Type.number e <*> cutter env c
+      (\e' c' place' sol -> Checked.Change (e' sol) (c' sol) (($ sol) <$> place'))
+        <$> expect env Type.number e
+          <*> cutter env c
+          <*> traverse (spatialPoint env) place
   Surface.Spindle spin -> one (fmap Checked.Spindle <$> spindle env spin)
   Surface.Coolant switch -> one (pure (const (Checked.Coolant switch)))
   Surface.Auxiliary e -> one (fmap Checked.Auxiliary <$> expect env Type.number e)
+  Surface.ProgramStop -> one (pure (const Checked.ProgramStop))
+  Surface.OptionalStop -> one (pure (const Checked.OptionalStop))
+  Surface.Dwell e -> one (fmap Checked.Dwell <$> expect env Type.number e)
   where
     done = fmap (fmap (Located at .))
     one = done . Inference.separately
@@ -405,7 +418,9 @@ cutter :: TypingEnvironment -> Surface.Cutter -> Infer (Deferred Checked.Cutter)
 cutter env (Located at c) = fmap (Located at .) $ case c of
   Surface.MillCutter e -> (Checked.MillCutter .) <$> len e
   Surface.DrillCutter e -> (Checked.DrillCutter .) <$> len e
-  Surface.TurningCutter e -> (Checked.TurningCutter .) <$> len e
+  Surface.TurningCutter e tip ->
+    (\e' tip' sol -> Checked.TurningCutter (e' sol) (($ sol) <$> tip'))
+      <$> len e <*> traverse (expect env Type.number) tip
   Surface.ConeCutter d a h ->
     (\d' a' h' sol -> Checked.ConeCutter (d' sol) (a' sol) (h' sol))
       <$> len d <*> expect env Type.angle a <*> len h
@@ -424,6 +439,7 @@ tolerance env accuracy = case accuracy of
 spindle :: TypingEnvironment -> Surface.Spin -> Infer (Deferred Checked.Spin)
 spindle env spin = case spin of
   Surface.SpindleStop -> pure (const Checked.SpindleStop)
+  Surface.SpindleByHand -> pure (const Checked.SpindleByHand)
   Surface.Spinning sense speed -> do
     speed' <- traverse (expect env Type.spindleSpeed) speed
     pure (\sol -> Checked.Spinning sense (($ sol) <$> speed'))

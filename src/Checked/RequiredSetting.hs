@@ -9,12 +9,13 @@ module Checked.RequiredSetting
 where
 
 import Base.Region (Located (..), Region (..))
-import Checked.Error (Error (..), RequiredSetting (..), StatementMove (..))
+import Checked.Error (Error (..), StatementMove (..))
+import Checked.ProgramSetting (ProgramSetting (..))
 import Control.Applicative ((<|>))
 import Data.List.NonEmpty qualified as NonEmpty
 import Data.Map.Strict (Map)
 import Data.Map.Strict qualified as Map
-import Data.Maybe (isNothing, listToMaybe)
+import Data.Maybe (isJust, isNothing, listToMaybe)
 import Data.Text (Text)
 import Data.Text qualified as Text
 import Surface.Syntax (Statement)
@@ -57,7 +58,7 @@ flatten outer s@(Located at _) = case s of
 
 -- | The settings that occurred so far, with the regions of their first statements. If a setting is
 -- missing, it is reported and added without a region, so that it is reported only once.
-type Seen = Map RequiredSetting (Maybe Region)
+type Seen = Map ProgramSetting (Maybe Region)
 
 -- | Checks one statement. @seen@ are the settings above it, and @below@ are the statements below
 -- it. The result contains the settings for the next statement, and the mistakes.
@@ -103,13 +104,14 @@ machiningKeyword s = case s of
   Surface.Turn {} -> "turn"
   Surface.Drill {} -> "drill"
   Surface.Travel Surface.RapidMotion _ -> "rapid"
+  Surface.Change {} -> "change"
   _ -> "move"
 
 -- | Is a statement a @change@, which sets another tool? A program may have several @change@
 -- statements, but only one @tool@ statement.
 isChange :: Surface.Statement_ -> Bool
 isChange s = case s of
-  Surface.Change _ _ -> True
+  Surface.Change {} -> True
   Surface.Broken (Just "change") _ -> True
   _ -> False
 
@@ -117,10 +119,10 @@ isChange s = case s of
 data Requirement = Requirement
   { -- | the number of characters of the statement's keyword; reports point at the keyword
     keywordLength :: Int,
-    -- | the setting that the statement makes; 'Nothing' if it makes none of type 'RequiredSetting'
-    given :: Maybe RequiredSetting,
+    -- | the setting that the statement makes; 'Nothing' if it makes none of type 'ProgramSetting'
+    given :: Maybe ProgramSetting,
     -- | the settings that must occur above the statement
-    needed :: [RequiredSetting],
+    needed :: [ProgramSetting],
     -- | true if the statement applies to the whole program and is not allowed in a block
     isGlobal :: Bool
   }
@@ -129,14 +131,18 @@ requirement :: Surface.Statement_ -> Requirement
 requirement s = case s of
   Surface.Part _ _ -> global PartSetting
   Surface.Machine _ -> global MachineSetting
-  Surface.Tool _ -> global ToolSetting
+  Surface.Tool _ _ -> global ToolSetting
   Surface.Tolerance _ -> global ToleranceSetting
   Surface.From _ -> global FromSetting
+  Surface.WorkOffset _ -> global WorkSetting
+  Surface.ProgramNumber _ -> global NumberSetting
+  Surface.SafeHeight _ -> global SafeSetting
   Surface.Import _ -> none {keywordLength = 6, isGlobal = True}
   Surface.Param _ _ -> none {keywordLength = 5, isGlobal = True}
   Surface.Feed _ -> none {given = Just FeedSetting}
   Surface.Clearance _ -> none {given = Just ClearanceSetting}
-  Surface.Change _ _ -> none {given = Just ToolSetting}
+  Surface.Change _ _ place ->
+    none {keywordLength = 6, given = Just ToolSetting, needed = [FromSetting | isJust place]}
   Surface.Mill _ _ options -> none {needed = milling <> forDepth options}
   Surface.Pocket _ _ options -> none {keywordLength = 6, needed = milling <> forDepth options}
   Surface.Turn {} -> none {needed = milling}
@@ -165,7 +171,7 @@ requirement s = case s of
 
 -- | The keywords of the statements that make settings, each with its setting. They serve statements
 -- of which the parser could read only the keyword.
-settingByKeyword :: [(Text, RequiredSetting)]
+settingByKeyword :: [(Text, ProgramSetting)]
 settingByKeyword =
   [ ("part", PartSetting),
     ("machine", MachineSetting),
@@ -174,7 +180,10 @@ settingByKeyword =
     ("feed", FeedSetting),
     ("tolerance", ToleranceSetting),
     ("clearance", ClearanceSetting),
-    ("from", FromSetting)
+    ("from", FromSetting),
+    ("work", WorkSetting),
+    ("program", NumberSetting),
+    ("safe", SafeSetting)
   ]
 
 -- | The keyword of a statement that applies to the whole program, for the report of such a
@@ -183,9 +192,12 @@ globalKeyword :: Surface.Statement_ -> Text
 globalKeyword s = case s of
   Surface.Part _ _ -> "part"
   Surface.Machine _ -> "machine"
-  Surface.Tool _ -> "tool"
+  Surface.Tool _ _ -> "tool"
   Surface.Tolerance _ -> "tolerance"
   Surface.From _ -> "from"
+  Surface.WorkOffset _ -> "work"
+  Surface.ProgramNumber _ -> "program"
+  Surface.SafeHeight _ -> "safe"
   Surface.Import _ -> "import"
   Surface.Param _ _ -> "param"
   _ -> "this"

@@ -112,11 +112,16 @@ type Statement = Located Statement_
 
 -- | A statement. Imports do not occur, because the imported definitions have replaced them.
 data Statement_
-  = Tool Cutter
+  = -- | the number of the tool, if the program gives one, and the tool
+    Tool (Maybe Expr) Cutter
   | Feed Expr
   | Tolerance Accuracy
   | Clearance Expr
   | From Expr
+  | -- | the number of the work offset
+    WorkOffset Expr
+  | ProgramNumber Expr
+  | SafeHeight Expr
   | -- | the name, the dimension of the quantities in the value, and the expression of the value
     LetValue (Located Name) Dimension Expr
   | LetFunction Name (NonEmpty Name) Expr
@@ -132,11 +137,15 @@ data Statement_
   | -- | the point or the list of points, the depth in mm, and the settings
     Drill Expr Expr Settings
   | Travel (NonEmpty Stop)
-  | -- | the number of the tool, and the tool
-    Change Expr Cutter
+  | -- | the number of the tool, the tool, and the point at which it is changed
+    Change Expr Cutter (Maybe Expr)
   | Spindle Spin
   | Coolant Switch
   | Auxiliary Expr
+  | ProgramStop
+  | OptionalStop
+  | -- | the number of seconds
+    Dwell Expr
   | -- | the variable, the dimension of the quantities in its values, the list, and the block
     Repeat (Located Name) Dimension Expr [Statement]
   | When Expr [Statement] [Statement]
@@ -186,11 +195,11 @@ data Joggle_ = Joggle Expr Expr Expr Expr
 type Cutter = Located Cutter_
 
 -- | A tool: a cutter or a drill by its diameter in mm, a turning tool by the radius of its nose in
--- mm.
+-- mm, and by the direction of its tip if the program gives it.
 data Cutter_
   = MillCutter Expr
   | DrillCutter Expr
-  | TurningCutter Expr
+  | TurningCutter Expr (Maybe Expr)
   | -- | a conical cutter: the diameter of its tip, the bevel of its flank, and the height above the
     -- tip at which the flank touches the contour
     ConeCutter Expr Expr Expr
@@ -204,8 +213,8 @@ data Accuracy = Within Expr | Between Expr Expr
   deriving stock (Eq, Show)
 
 -- | A command to the spindle: to rotate in a sense, with a speed in turns per minute if there is
--- one, or to stop.
-data Spin = Spinning Sense (Maybe Expr) | SpindleStop
+-- one, or to stop. The last constructor says that the spindle is switched by hand.
+data Spin = Spinning Sense (Maybe Expr) | SpindleStop | SpindleByHand
   deriving stock (Eq, Show)
 
 -- | A condition that must hold; otherwise evaluation reports a mistake.
