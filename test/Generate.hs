@@ -255,6 +255,10 @@ partOf at operation =
       Part.machine = Nothing,
       Part.start = Just (Located (Region 0 0) (Part.SpacePoint at (Mm 0))),
       Part.firstCutter = cutter,
+      Part.firstToolNumber = Nothing,
+      Part.workOffset = Nothing,
+      Part.programNumber = Nothing,
+      Part.safeHeight = Nothing,
       Part.contours = [],
       Part.operations = [operation],
       Part.fittings = [],
@@ -265,10 +269,10 @@ partOf at operation =
       Part.Mill (Located _ m) -> mill m
       Part.Pocket (Located _ p) -> mill (Part.wall p)
       Part.Drill (Located _ d) ->
-        Just (Part.Cutter Part.DrillingCutter (Part.drillRadius d) Nothing)
+        Just (Part.Cutter Part.DrillingCutter (Part.drillRadius d) Nothing Nothing)
       Part.Travel _ -> Nothing
       Part.Command _ -> Nothing
-    mill m = Just (Part.Cutter Part.MillingCutter (Part.radius m) Nothing)
+    mill m = Just (Part.Cutter Part.MillingCutter (Part.radius m) Nothing Nothing)
 
 -- | A toolpath of one rapid move, from (0, 0) to a point by its coordinates in mm.
 straightPath :: Double -> Double -> Toolpath
@@ -286,6 +290,7 @@ straightPath x y =
         ]
     ]
     False
+    Toolpath.noSetup
   where
     nowhere = Region 0 0
 

@@ -13,7 +13,7 @@ module Part.Error
 where
 
 import Base.Decimal qualified as Decimal
-import Base.Quantity (Mm (..), times)
+import Base.Quantity (Mm (..), Seconds (..), times)
 import Base.Region (Region (Region))
 import Data.List (nub)
 import Data.Maybe (isNothing, listToMaybe)
@@ -90,6 +90,14 @@ data ValueFact
   | -- | passes at several heights with a cutter that is widest at its tip: the region of the
     -- stepdown with the word before it
     StepsUndercut Region (Maybe Region)
+  | -- | a safe height below a clearance height: the safe height, and the clearance height with its
+    -- region
+    SafeTooLow Region Mm (Region, Mm)
+  | -- | a tool change whose number the first tool has, which is another cutter: the number, and the
+    -- region of the number of the first tool
+    NumberOfFirstTool Region Int Region
+  | -- | a dwell that is too long: the longest one, in seconds
+    DwellTooLong Region Seconds
   | InConstruction ConstructionFault
   | InContour ContourFault
   | InCurve CurveMistake
@@ -218,6 +226,28 @@ factReport arguments fact = case fact of
       }
     where
       inOnePass = [Fix.proposed (Fix.removal "Leave the step out: one pass." s) | Just s <- [steps]]
+  SafeTooLow region (Mm safe) (higher, Mm clearance) ->
+    let text = Decimal.mm (Mm clearance)
+     in (at region "E0361" "the safe height is below the clearance height")
+          { message =
+              [ "It is " <> Decimal.mm (Mm safe) <> ", and the clearance height is " <> text <> "."
+              ],
+            others = [Label higher ("a clearance of " <> text)],
+            fixes = [Fix.proposed (Fix.exchange ("Write " <> text <> ".") region text)]
+          }
+  NumberOfFirstTool region n first ->
+    let text = Decimal.whole (if n < 99 then n + 1 else 1)
+     in (at region "E0362" ("tool " <> Decimal.whole n <> " is already another cutter"))
+          { message = ["The tool table of the control has one cutter under each number."],
+            others = [Label first "the first tool has this number"],
+            fixes =
+              [Fix.proposed (Fix.exchange ("Give it the number " <> text <> ".") region text)],
+            hints = ["If it is the first tool again, write the same cutter."]
+          }
+  DwellTooLong region (Seconds most) ->
+    (at region "E0363" ("a dwell is at most " <> Decimal.short 0 most <> " s"))
+      { hints = ["Write stop if the program has to wait for the operator."]
+      }
   InConstruction fault -> ConstructionError.toReport arguments fault
   InContour fault -> ContourError.toReport fault
   InCurve fault -> CurveError.toReport fault
@@ -278,6 +308,9 @@ notWholeReport region number range arguments x =
     written = case number of
       Parameter.ToolNumber -> Just region
       Parameter.AuxiliaryCommand -> Just region
+      Parameter.WorkOffset -> Just region
+      Parameter.ProgramNumber -> Just region
+      Parameter.TipDirection -> Just region
       Parameter.PassCount -> Nothing
       Parameter.PeckCount -> Nothing
       Parameter.RowPointCount -> argument 2

@@ -9,6 +9,7 @@ where
 
 import Base.Crash (bug)
 import Base.Name (Name)
+import Base.Quantity (Mm)
 import Base.Region (Located (..), Region)
 import Base.Result (Result (..))
 import Checked.Dimension (Dimension)
@@ -24,14 +25,14 @@ import Geometry.Transformation (Transformation)
 import Part.Assertion qualified as Assertion
 import Part.ContourElement qualified as ContourElement
 import Part.Curve (Fitting, PartCurve (..))
-import Part.Error (Error (..))
+import Part.Error (Error (..), ValueFact (..))
 import Part.Evaluation (Eval)
 import Part.Evaluation qualified as Evaluation
 import Part.Expression (Environment (..))
 import Part.Expression qualified as Expression
 import Part.Machining (Context (..))
 import Part.Machining qualified as Machining
-import Part.Measure (feedOf, lengthOf, positive, whole)
+import Part.Measure (feedOf, lengthOf, positive, secondsOf, whole)
 import Part.Parameter qualified as Parameter
 import Part.Part
 import Part.Piece qualified as Piece
@@ -43,6 +44,13 @@ data State = State
   { context :: Context,
     -- | the cutter that the program sets before its first tool change
     initialCutter :: Maybe Cutter,
+    -- | the number of this cutter
+    initialNumber :: Maybe (Located Int),
+    offset' :: Maybe (Located Int),
+    number' :: Maybe (Located Int),
+    safe' :: Maybe (Located Mm),
+    -- | the highest clearance height so far
+    highestClearance :: Maybe (Located Mm),
     start' :: Maybe (Located SpacePoint),
     contours' :: [Contour],
     operations' :: [Operation],
@@ -56,8 +64,10 @@ data State = State
 
 -- | Evaluates a program. The output is always present, but lacks the statements with mistakes.
 evaluate :: Checked.Program -> Result w Error Part
-evaluate program = Result {warnings = [], errors = reverse (errors' final), output = Just part}
+evaluate program =
+  Result {warnings = [], errors = reverse (errors' final) <> lowSafeHeights, output = Just part}
   where
+    lowSafeHeights = lowSafeHeight final
     final = foldl' step initial (Checked.statements program)
     part =
       Part
@@ -66,11 +76,24 @@ evaluate program = Result {warnings = [], errors = reverse (errors' final), outp
           machine = Checked.machine program,
           start = start' final,
           firstCutter = initialCutter final,
+          firstToolNumber = initialNumber final,
+          workOffset = offset' final,
+          programNumber = number' final,
+          safeHeight = safe' final,
           contours = reverse (contours' final),
           operations = reverse (operations' final),
           fittings = reverse (fittings' final),
           readings = readings' final
         }
+
+-- | The error of a safe height that is lower than a clearance height of the program.
+lowSafeHeight :: State -> [Error]
+lowSafeHeight final =
+  [ Error (SafeTooLow at safe (place, clearance)) [] []
+    | Just (Located at safe) <- [safe' final],
+      Just (Located place clearance) <- [highestClearance final],
+      safe < clearance
+  ]
 
 -- | The state before the first statement.
 initial :: State
@@ -86,6 +109,11 @@ initial =
             modalSense = Clockwise
           },
       initialCutter = Nothing,
+      initialNumber = Nothing,
+      offset' = Nothing,
+      number' = Nothing,
+      safe' = Nothing,
+      highestClearance = Nothing,
       start' = Nothing,
       contours' = [],
       operations' = [],
@@ -98,16 +126,26 @@ initial =
 -- | Evaluates one statement.
 step :: State -> Checked.Statement -> State
 step state (Located at s) = case s of
-  Checked.Tool c -> keep (Machining.cutterOf env c) (\c' -> (changed c') {initialCutter = Just c'})
+  Checked.Tool n c ->
+    keep ((,) <$> traverse (toolNumber env) n <*> Machining.cutterOf env c) $ \(n', c') ->
+      (changed c') {initialCutter = Just c', initialNumber = n'}
   Checked.Feed e -> keep (feedOf env e) (\f -> set now {modalFeed = Just f})
   Checked.Tolerance accuracy ->
     keep (Machining.accuracyOf env accuracy) (\t -> set now {chordError = Just t})
   Checked.Clearance e ->
-    keep (lengthOf env Parameter.ClearanceHeight e) (\z -> set now {clearanceHeight = Just z})
+    keep (lengthOf env Parameter.ClearanceHeight e) (withClearance state . Located (region e))
   Checked.From e ->
     keep
       (Machining.spacePoint <$> Expression.evaluate env e)
       (\p -> state {start' = Just (Located at p)})
+  Checked.WorkOffset e ->
+    keep (whole env Parameter.WorkOffset (54, 59) e) $ \n ->
+      state {offset' = Just (Located (region e) n)}
+  Checked.ProgramNumber e ->
+    keep (whole env Parameter.ProgramNumber (1, 9999) e) $ \n ->
+      state {number' = Just (Located (region e) n)}
+  Checked.SafeHeight e ->
+    keep (lengthOf env Parameter.SafeHeight e) (\z -> state {safe' = Just (Located (region e) z)})
   Checked.LetValue name d e -> keep (Expression.evaluate env e) (define state name d)
   Checked.LetFunction name parameters body -> defineFunction state name parameters body
   Checked.Table name columns ->
@@ -132,16 +170,24 @@ step state (Located at s) = case s of
     keep
       (Machining.stopsOf now (NonEmpty.toList stops))
       (maybe state (perform . Travel) . (NonEmpty.nonEmpty =<<))
-  Checked.Change e c ->
-    keep ((,) <$> whole env Parameter.ToolNumber (1, 99) e <*> Machining.cutterOf env c) $
-      \(n, c') -> (command (ChangeTool n c')) {context = now {cutter = Just c'}}
+  Checked.Change e c place ->
+    keep
+      ( (,,) <$> toolNumber env e
+          <*> Machining.cutterOf env c
+          <*> Machining.stopsOf now [Checked.Stop p Checked.Rapid | Just p <- [place]]
+      )
+      (toolChange state at)
   Checked.Spindle Checked.SpindleStop -> command SpindleOff
+  Checked.Spindle Checked.SpindleByHand -> command SpindleByHand
   Checked.Spindle (Checked.Spinning sense speed) ->
     keep (traverse (positive env Parameter.SpindleSpeed id) speed) $ \speed' ->
       (command (SpindleOn sense speed')) {context = now {modalSense = sense}}
   Checked.Coolant switch -> command (CoolantTo switch)
   Checked.Auxiliary e ->
     keep (whole env Parameter.AuxiliaryCommand (1, 99) e) (command . Auxiliary)
+  Checked.ProgramStop -> command ProgramStop
+  Checked.OptionalStop -> command OptionalStop
+  Checked.Dwell e -> keep (secondsOf env e) (command . Dwell)
   Checked.Repeat name d list body -> within (itemsOf env list) (repeated name d body)
   Checked.When e body others ->
     within (Expression.evaluate env e) $ \v inside ->
@@ -158,6 +204,47 @@ step state (Located at s) = case s of
     keep answer f = run state at answer (\a left -> (f a) {fuel = left})
     within answer block =
       run state at answer (\a left -> leave state (block a state {fuel = left}))
+
+-- Tools and heights
+
+-- | Evaluates the number of a tool. The result keeps the region of the expression.
+toolNumber :: Environment -> Expr -> Eval (Located Int)
+toolNumber env e = Located (region e) <$> whole env Parameter.ToolNumber (1, 99) e
+
+-- | The state after a tool change in the region @at@: the number of the tool, the tool, and the
+-- stop at which it is changed, if the program gives one.
+toolChange :: State -> Region -> (Located Int, Cutter, Maybe [Stop]) -> State
+toolChange state at (Located there n, c, stops) =
+  state
+    { operations' = Command (Located at (ChangeTool n c)) : moves <> operations' state,
+      context = (context state) {cutter = Just c},
+      errors' = contradictions <> errors' state
+    }
+  where
+    contradictions = [Error (NumberOfFirstTool there n first) [] [] | Just first <- [taken]]
+    moves = [Travel some | Just some <- [NonEmpty.nonEmpty =<< stops]]
+    -- The region of the number of the first tool, if it is the same number of another cutter.
+    taken = case (initialNumber state, initialCutter state) of
+      (Just (Located first m), Just before) | m == n && isOther before c -> Just first
+      _ -> Nothing
+
+-- | True for cutters of different kinds or sizes. The directions of the tips count if both are
+-- given.
+isOther :: Cutter -> Cutter -> Bool
+isOther a b =
+  kind a /= kind b
+    || cutterRadius a /= cutterRadius b
+    || or [m /= n | Just m <- [tip a], Just n <- [tip b]]
+
+-- | The state after a clearance height.
+withClearance :: State -> Located Mm -> State
+withClearance state z =
+  state
+    { context = (context state) {clearanceHeight = Just (value z)},
+      highestClearance = case highestClearance state of
+        Just before | value before >= value z -> Just before
+        _ -> Just z
+    }
 
 -- | Evaluates a statement. @at@ is its region, and @answer@ evaluates its expressions. @continue@
 -- makes the next state from the result of @answer@ and the number of steps that are left. After a

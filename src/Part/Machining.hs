@@ -36,7 +36,7 @@ import Part.Evaluation (Eval)
 import Part.Evaluation qualified as Evaluation
 import Part.Expression (Environment)
 import Part.Expression qualified as Expression
-import Part.Measure (feedOf, lengthOf, notNegative)
+import Part.Measure (feedOf, lengthOf, notNegative, whole)
 import Part.Parameter (Range (UpTo))
 import Part.Parameter qualified as Parameter
 import Part.Part
@@ -372,12 +372,13 @@ cutterOf env (Located _ c) = case c of
     d <- lengthOf env Parameter.BladeDiameter e
     wheel <- lengthOf env Parameter.WheelDiameter g
     pure (sized (BladeCutter wheel) e (times 0.5 d))
-  Checked.TurningCutter e -> do
+  Checked.TurningCutter e tip' -> do
     x <- Expression.number <$> Expression.evaluate env e
     when (x < 0) (Evaluation.mistake (Negative (region e) Parameter.NoseRadius x))
-    pure (sized TurningCutter e (Mm x))
+    tip <- traverse (whole env Parameter.TipDirection (1, 9)) tip'
+    pure (sized TurningCutter e (Mm x)) {tip}
   where
-    sized kind' e r = Cutter kind' r (Just (region e))
+    sized kind' e r = Cutter kind' r (Just (region e)) Nothing
 
 -- | Evaluates a conical cutter from three expressions: the diameter 2R of its tip (@e@), the angle
 -- μ between its flank and its axis (@lean@), and a height H (@h@). The flank touches the part at
@@ -392,7 +393,7 @@ cone env e lean h = do
     (Evaluation.mistake (InCurve (SteepBevel (region lean) Nothing (Rad mu))))
   let a = d / 2 + flank * tan mu
   when (a <= 0) (Evaluation.mistake (NotPositive (region lean) Parameter.RadiusAtHeight a))
-  pure (Cutter (if mu < 0 then DovetailCutter else ConeCutter) (Mm a) Nothing)
+  pure (Cutter (if mu < 0 then DovetailCutter else ConeCutter) (Mm a) Nothing Nothing)
 
 -- | The allowed chord error that a @tolerance@ statement sets.
 accuracyOf :: Environment -> Checked.Accuracy -> Eval (Located Accuracy)

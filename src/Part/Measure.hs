@@ -1,15 +1,16 @@
--- | Evaluates lengths, feeds and whole numbers, and checks their limits. 'Tolerance.reach' is the
--- largest coordinate or radius that a program may use.
+-- | Evaluates lengths, feeds, times and whole numbers, and checks their limits. 'Tolerance.reach'
+-- is the largest coordinate or radius that a program may use.
 module Part.Measure
   ( positive,
     lengthOf,
     notNegative,
     feedOf,
+    secondsOf,
     whole,
   )
 where
 
-import Base.Quantity (Feed (..), Mm (..))
+import Base.Quantity (Feed (..), Mm (..), Seconds (..))
 import Base.Region (Located (..))
 import Checked.Syntax (Expr)
 import Control.Monad (when)
@@ -49,6 +50,14 @@ notNegative env parameter e = do
 -- the region of the expression.
 feedOf :: Environment -> Expr -> Eval (Located Feed)
 feedOf env e = Located (region e) <$> positive env Parameter.Feed Feed e
+
+-- | Evaluates the time of a dwell in seconds, which must be above 0 and at most one hour.
+secondsOf :: Environment -> Expr -> Eval Seconds
+secondsOf env e = do
+  t <- positive env Parameter.DwellTime Seconds e
+  if t > longest then Evaluation.mistake (DwellTooLong (region e) longest) else pure t
+  where
+    longest = Seconds 3600
 
 -- | Evaluates a whole number from @low@ to @high@, both included. A number within 'Tolerance.equal'
 -- of a whole number is rounded to it. @what@ names the number in mistakes.

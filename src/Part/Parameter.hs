@@ -49,6 +49,9 @@ data LimitedQuantity
   | FilletRadius
   | -- | the depth or the radius of a joggle, which is a local step of an edge
     JoggleMeasure
+  | SafeHeight
+  | -- | the time of a pause of the axes
+    DwellTime
   deriving stock (Eq, Show)
 
 -- | The name that reports use for a quantity.
@@ -77,20 +80,27 @@ name parameter = case parameter of
   Chamfer -> "the chamfer"
   FilletRadius -> "the radius of a fillet"
   JoggleMeasure -> "a measure of a joggle"
+  SafeHeight -> "the safe height"
+  DwellTime -> "a dwell"
 
 -- | The text of a quantity with its unit. @x@ is in mm\/min for a feed, in turns per minute for a
--- spindle speed, and in mm for a length. A factor has no unit.
+-- spindle speed, in seconds for a time, and in mm for a length. A factor has no unit.
 written :: LimitedQuantity -> Double -> Text
 written parameter x = case parameter of
   Feed -> Decimal.short 4 x <> " mm/min"
   SpindleSpeed -> Decimal.short 4 x <> " rpm"
   ScalingFactor -> Decimal.short 6 x
+  DwellTime -> Decimal.short 6 x <> " s"
   _ -> Decimal.mm (Mm x)
 
 -- | The kind of a parameter that must be a whole number.
 data WholeNumber
   = ToolNumber
   | AuxiliaryCommand
+  | WorkOffset
+  | ProgramNumber
+  | -- | the direction of the tip of a turning tool
+    TipDirection
   | PassCount
   | PeckCount
   | -- | the number of points in one row of a pattern
@@ -112,6 +122,9 @@ wholeName :: WholeNumber -> Text
 wholeName number = case number of
   ToolNumber -> "the number of a tool"
   AuxiliaryCommand -> "an auxiliary command"
+  WorkOffset -> "a work offset"
+  ProgramNumber -> "the number of a program"
+  TipDirection -> "the direction of the tip"
   PassCount -> "the number of passes"
   PeckCount -> "the number of pecks"
   RowPointCount -> "the number of points in a row"

@@ -40,7 +40,7 @@ module Part.Part
 where
 
 import Base.Name (Name)
-import Base.Quantity (Feed, Mm (..))
+import Base.Quantity (Feed, Mm (..), Seconds)
 import Base.Region (Located, Region)
 import Checked.Syntax
   ( Corners (..),
@@ -74,6 +74,14 @@ data Part = Part
     start :: Maybe (Located SpacePoint),
     -- | the tool in the spindle at the start of the tape
     firstCutter :: Maybe Cutter,
+    -- | the number of this tool, from 1 to 99
+    firstToolNumber :: Maybe (Located Int),
+    -- | the number of the work offset, from 54 to 59
+    workOffset :: Maybe (Located Int),
+    -- | the number of the program, from 1 to 9999
+    programNumber :: Maybe (Located Int),
+    -- | the height above all clamps, at least every clearance height
+    safeHeight :: Maybe (Located Mm),
     contours :: [Contour],
     -- | all operations in the order in which the tape makes them
     operations :: [Operation],
@@ -317,6 +325,14 @@ data Command
     Auxiliary Int
   | -- | the number of the new tool, and the new tool
     ChangeTool Int Cutter
+  | -- | the operator switches the spindle; the tape does not
+    SpindleByHand
+  | -- | a stop until the operator starts the program again
+    ProgramStop
+  | -- | such a stop, if a switch of the control asks for it
+    OptionalStop
+  | -- | a pause of the axes
+    Dwell Seconds
   deriving stock (Eq, Show)
 
 -- | A tool: its kind, and the radius at which it touches the part.
@@ -324,7 +340,10 @@ data Cutter = Cutter
   { kind :: CutterKind,
     cutterRadius :: Mm,
     -- | the region of the diameter, or of the radius of the nose; absent for a cone
-    cutterSize :: Maybe Region
+    cutterSize :: Maybe Region,
+    -- | the direction of the tip of a turning tool, from 1 to 9, as the tool table of a control has
+    -- it; absent if the program does not give it
+    tip :: Maybe Int
   }
   deriving stock (Eq, Show)
 

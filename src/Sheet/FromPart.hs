@@ -88,13 +88,22 @@ runsOf = go []
         Right (Run {stops, keywordRegion, milled = (keywordRegion, m)} : runs, final)
       Part.Pocket (Located at _) : _ -> Left (NoNumbers at PocketClearing)
       Part.Drill (Located at _) : _ -> Left (NoNumbers at DrillingHoles)
-      Part.Command (Located at c) : _ -> Left (NoNumbers at (commandFeature c))
-    commandFeature c = case c of
-      Part.SpindleOn _ _ -> SpindleCommand
-      Part.SpindleOff -> SpindleCommand
-      Part.CoolantTo _ -> CoolantCommand
-      Part.Auxiliary _ -> AuxiliaryCommand
-      Part.ChangeTool _ _ -> SecondTool
+      Part.Command (Located at c) : rest ->
+        maybe (go before rest) (Left . NoNumbers at) (commandFeature c)
+
+-- | The feature that a command needs and a sheet does not have; 'Nothing' for a command that is not
+-- on the tape.
+commandFeature :: Part.Command -> Maybe Feature
+commandFeature c = case c of
+  Part.SpindleOn _ _ -> Just SpindleCommand
+  Part.SpindleOff -> Just SpindleCommand
+  Part.SpindleByHand -> Nothing
+  Part.CoolantTo _ -> Just CoolantCommand
+  Part.Auxiliary _ -> Just AuxiliaryCommand
+  Part.ChangeTool _ _ -> Just SecondTool
+  Part.ProgramStop -> Just StopCommand
+  Part.OptionalStop -> Just StopCommand
+  Part.Dwell _ -> Just DwellCommand
 
 -- | The region of the keyword @mill@ or @turn@, which begins a statement with the given region.
 -- Both have four letters.
@@ -151,7 +160,7 @@ sideOf (Located at side) = case side of
 toolOf :: Checked.Program -> Mm -> (Double, Double, Double)
 toolOf written (Mm radius) =
   case [ (d, mu, h)
-         | Located _ (Checked.Tool (Located _ (Checked.ConeCutter a b c))) <-
+         | Located _ (Checked.Tool _ (Located _ (Checked.ConeCutter a b c))) <-
              Checked.statements written,
            Just d <- [literal a],
            Just mu <- [literal b],

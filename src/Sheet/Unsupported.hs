@@ -51,6 +51,8 @@ data Feature
   | SpindleCommand
   | CoolantCommand
   | AuxiliaryCommand
+  | StopCommand
+  | DwellCommand
   | SecondTool
   | -- | different tolerances inside and outside of the contour
     BandTolerance
@@ -194,6 +196,8 @@ featureText feature = case feature of
   SpindleCommand -> "a command to the spindle"
   CoolantCommand -> "a command to the coolant"
   AuxiliaryCommand -> "an auxiliary command"
+  StopCommand -> "a stop"
+  DwellCommand -> "a dwell"
   SecondTool -> "a second tool"
   BandTolerance -> "a tolerance that differs inside and outside"
   OutsideOfContour -> "the outside of a contour"
