@@ -46,7 +46,7 @@ import Toolpath.OffsetPath qualified as OffsetPath
 import Toolpath.PocketMove qualified as PocketMove
 import Toolpath.RestMaterial (Remaining (Remaining, positions, tool, word))
 import Toolpath.RestMaterial qualified as RestMaterial
-import Toolpath.Toolpath (Block (..), Toolpath (Toolpath))
+import Toolpath.Toolpath (Block (..), Setup (Setup), Toolpath (Toolpath))
 import Toolpath.Toolpath qualified as Toolpath
 import Toolpath.Warning qualified as Warning
 
@@ -59,18 +59,31 @@ toToolpath part = case (Part.start part, Part.operations part) of
     Result
       []
       []
-      (Just (Toolpath (Located (Region 0 0) (SpacePoint (Vec.point 0 0) (Mm 0))) [] False))
+      (Just (Toolpath nowhere [] False (setupOf part)))
   (Nothing, _) -> Result [] [] Nothing
   (Just begin, operations) ->
     case collect (firstState part (value begin)) operations of
       ([], blocks) ->
-        let path = Toolpath begin blocks (turns part)
+        let path = Toolpath begin blocks (turns part) (setupOf part)
             errors = Intrusion.intrusions path
          in Result
               (restWarnings path <> (if null errors then Warning.warnings path else []))
               errors
               (Just path)
       (errors, _) -> Result [] errors Nothing
+  where
+    nowhere = Located (Region 0 0) (SpacePoint (Vec.point 0 0) (Mm 0))
+
+-- | The settings of the whole program.
+setupOf :: Part -> Setup
+setupOf part =
+  Setup
+    { Toolpath.firstCutter = Part.firstCutter part,
+      Toolpath.firstToolNumber = Part.firstToolNumber part,
+      Toolpath.workOffset = Part.workOffset part,
+      Toolpath.programNumber = Part.programNumber part,
+      Toolpath.safeHeight = Part.safeHeight part
+    }
 
 -- | True if the part is turned on a lathe: a statement turns, or there is a turning tool.
 turns :: Part -> Bool

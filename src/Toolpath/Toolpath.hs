@@ -2,6 +2,8 @@
 -- the requested feed of every move.
 module Toolpath.Toolpath
   ( Toolpath (..),
+    Setup (..),
+    noSetup,
     Block (..),
     Pass (..),
     Sent (..),
@@ -32,7 +34,7 @@ import Geometry.Carrier (Side)
 import Geometry.Segment (Segment)
 import Geometry.Segment qualified as Segment
 import Offset.Equidistant qualified as Equidistant
-import Part.Part (Command, Drilling, Milling, Pace, Pocketing, SpacePoint (..), Stop)
+import Part.Part (Command, Cutter, Drilling, Milling, Pace, Pocketing, SpacePoint (..), Stop)
 import Part.Part qualified as Part
 
 -- | The cutter's starting position, and the blocks in the order of execution.
@@ -40,9 +42,30 @@ data Toolpath = Toolpath
   { start :: Located SpacePoint,
     blocks :: [Block],
     -- | true if the part is turned on a lathe
-    isTurned :: Bool
+    isTurned :: Bool,
+    setup :: Setup
   }
   deriving stock (Eq, Show)
+
+-- | The settings of the whole program for the control and the operator. Each is absent if the
+-- program does not make it.
+data Setup = Setup
+  { -- | tool in the spindle at the start
+    firstCutter :: Maybe Cutter,
+    -- | number of this tool, from 1 to 99
+    firstToolNumber :: Maybe (Located Int),
+    -- | number of the work offset, from 54 to 59
+    workOffset :: Maybe (Located Int),
+    -- | number of the program, from 1 to 9999
+    programNumber :: Maybe (Located Int),
+    -- | height above all clamps, in mm, at least every clearance height
+    safeHeight :: Maybe (Located Mm)
+  }
+  deriving stock (Eq, Show)
+
+-- | The setup of a program without settings.
+noSetup :: Setup
+noSetup = Setup Nothing Nothing Nothing Nothing Nothing
 
 -- | The moves of one statement, or of one of its passes.
 data Block

@@ -280,6 +280,7 @@ stoppedSpindles path = if Toolpath.isTurned path then [] else go Resting (Toolpa
     commanded spindle at c = case (c, spindle) of
       (Part.SpindleOn sense speed, _) -> Turning (spindleText sense speed)
       (Part.SpindleOff, _) -> Resting
+      (Part.SpindleByHand, _) -> Resting
       (Part.ChangeTool _ _, Turning text) -> Stopped at text
       _ -> spindle
     spindleText sense speed =
@@ -289,7 +290,8 @@ stoppedSpindles path = if Toolpath.isTurned path then [] else go Resting (Toolpa
 
 -- | The state of the spindle while the blocks are executed.
 data Spindle
-  = -- | switched off, never switched on by the program, or already warned about; needs no warning
+  = -- | switched off, switched by hand, never switched on by the program, or already warned about;
+    -- needs no warning
     Resting
   | -- | turning; the text is the statement that started it
     Turning Text

@@ -109,6 +109,7 @@ framesFor m ms =
             (Located (Region 0 0) (SpacePoint (Segment.start (Toolpath.segment (head ms))) (Mm 0)))
             [Travelling (Mm 0) [] ms]
             False
+            Toolpath.noSetup
         )
     )
 

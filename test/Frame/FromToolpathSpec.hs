@@ -257,6 +257,7 @@ spec = do
             (Located (Region 0 0) (Part.SpacePoint (Vec.point 0 0) (Mm 0)))
             [Toolpath.Travelling (Mm 0) [] [down]]
             False
+            Toolpath.noSetup
 
 -- | Toolpath along @n@ contours.
 contoursOf :: Int -> Toolpath

@@ -62,6 +62,7 @@ pathAlong pace segments = case segments of
           [Move x (Toolpath.Manner (Mm 0, Mm 0) pace False) nowhere False | x <- segments]
       ]
       False
+      Toolpath.noSetup
   where
     nowhere = Region 0 0
 

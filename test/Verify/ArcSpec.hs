@@ -292,6 +292,7 @@ refusals machine f =
               (Located (Region 0 0) (Part.SpacePoint (Vec.point 0 0) (Mm 0)))
               []
               False
+              Toolpath.noSetup
           )
           (Frame.FrameProgram 0 [])
           [f]

@@ -204,7 +204,12 @@ prove machine path own fs =
 
 -- | Toolpath without moves.
 resting :: Toolpath
-resting = Toolpath.Toolpath (Located (Region 0 0) (Part.SpacePoint (Vec.point 0 0) (Mm 0))) [] False
+resting =
+  Toolpath.Toolpath
+    (Located (Region 0 0) (Part.SpacePoint (Vec.point 0 0) (Mm 0)))
+    []
+    False
+    Toolpath.noSetup
 
 -- | Toolpath 10 mm along x in rapid, 4 mm down at 30 mm/min, and up again in rapid.
 plunging :: Toolpath
