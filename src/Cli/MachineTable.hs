@@ -348,7 +348,10 @@ commandRows m =
           ("coolant on", coolantOn o),
           ("coolant off", coolantOff o),
           ("tool change", toolChange o),
-          ("auxiliary", auxiliary o)
+          ("auxiliary", auxiliary o),
+          ("stop", programStop o),
+          ("optional stop", optionalStop o),
+          ("dwell", dwell o)
         ]
           <> concat
             [ [ ("cutter left", [compensateLeft c]),
@@ -373,6 +376,8 @@ valueText v = case v of
   Argument -> "the number given"
   Step t -> "the step of " <> stepText t
   Diameter -> "the cutter's diameter"
+  InSeconds -> "the seconds given"
+  InMilliseconds -> "the milliseconds of the seconds given"
 
 stepText :: Map Int Double -> Text
 stepText t = case (Map.lookupMin t, Map.lookupMax t) of

@@ -26,7 +26,7 @@ import Data.List.NonEmpty qualified as NonEmpty
 import Data.Text (Text)
 import Data.Text qualified as Text
 import Frame.Frame qualified as Frame
-import Frame.MoveTime (moveLength, moveTime)
+import Frame.MoveTime (moveLength, moveTime, pathTime)
 import Geometry.Segment (Segment (..))
 import Geometry.Segment qualified as Segment
 import Geometry.Vec qualified as Vec
@@ -219,7 +219,7 @@ summary punched path =
     [ToLeft, ToRight, ToLeft]
     ( [ ["linking moves", fixed3 (minus (lengthOf everything) (lengthOf cutting)), "mm"],
         ["total length of the path", fixed3 (lengthOf everything), "mm"],
-        ["total time", seconds (total (map (moveTime machine) everything)), "s"]
+        ["total time", seconds (pathTime machine path), "s"]
       ]
         <> maybe [] (uncurry controllerRow) punched
         <> maybe [] (uncurry tapeRows) punched

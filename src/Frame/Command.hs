@@ -1,10 +1,11 @@
 -- | Commands of the part program as words of a machine, and the frames that hold them.
 --
 -- A command for which a machine has no word becomes a warning, because the operator can carry it
--- out by hand. For an auxiliary command, which the program writes as @aux N@, a missing word is an
--- error. A number that does not fit its word is an error too. Commands are pending until the next
--- move, and are put into its frame. When the word of a new command is already pending, the pending
--- words first get a frame of their own.
+-- out by hand. For an auxiliary command, which the program writes as @aux N@, and for a stop or a
+-- dwell, a missing word is an error. A number that does not fit its word is an error too. Commands
+-- are pending until the next move, and are put into its frame. When the word of a new command is
+-- already pending, the pending words first get a frame of their own. A stop and a dwell always have
+-- frames of their own, because a control moves before it stops for a word of the same frame.
 module Frame.Command
   ( Translation (..),
     translated,
@@ -16,7 +17,7 @@ module Frame.Command
   )
 where
 
-import Base.Quantity (Mm (..), times)
+import Base.Quantity (Mm (..), Seconds (..), times)
 import Base.Region (Located (Located), Region)
 import Data.List (elemIndex, minimumBy, nub, sortOn)
 import Data.List.NonEmpty qualified as NonEmpty
@@ -32,6 +33,9 @@ import Machine.Machine
       ( auxiliary,
         coolantOff,
         coolantOn,
+        dwell,
+        optionalStop,
+        programStop,
         spindleClockwise,
         spindleCounterClockwise,
         spindleOff,
@@ -52,6 +56,8 @@ data Translation = Translation
   { -- | the words with their numbers; empty when the machine has no word for the command, or when
     -- there is no suitable number for the word
     numbers :: [(CommandName, Int)],
+    -- | true if the words have frames of their own
+    isAlone :: Bool,
     warnings :: [Warning],
     errors :: [Error]
   }
@@ -59,20 +65,36 @@ data Translation = Translation
 -- | Words for a command of the program, and the reports about it.
 translated :: Machine -> Located Command -> Translation
 translated machine (Located region c) = case wordsFor (Machine.commandWords machine) c of
-  [] -> case c of
-    Part.Auxiliary n -> Translation [] [] [NoSuchCommand region AuxiliaryCommand n 0]
-    _ -> Translation [] [ManualCommand region (kindOf c)] []
-  commandWords -> case concatMap (numbersFor c) commandWords of
-    [] -> Translation [] [SpindleSpeedMissing region] []
+  [] -> untranslated region c
+  commandWords -> case concatMap (numbersFor machine c) commandWords of
+    [] -> Translation [] False [SpindleSpeedMissing region] []
     ns ->
       Translation
         ns
+        (kindOf c `elem` [StopCommand, DwellCommand])
         (concatMap (speedWarnings region c) commandWords)
         [ NoSuchCommand region (kindOf c) n most
           | (o, n) <- ns,
             Just most <- [Machine.commandCapacity machine o],
             n > most
         ]
+
+-- | Reports about a command for which the machine has no word. The command that the operator
+-- switches the spindle by hand has no words on any machine.
+untranslated :: Region -> Command -> Translation
+untranslated region c = case c of
+  Part.Auxiliary n -> refused (NoSuchCommand region AuxiliaryCommand n 0)
+  Part.ProgramStop -> refused (CannotWait region StopCommand)
+  Part.OptionalStop -> refused (CannotWait region StopCommand)
+  Part.Dwell _ -> refused (CannotWait region DwellCommand)
+  Part.SpindleByHand -> Translation [] False [] []
+  Part.SpindleOn _ _ -> byHand
+  Part.SpindleOff -> byHand
+  Part.CoolantTo _ -> byHand
+  Part.ChangeTool _ _ -> byHand
+  where
+    refused e = Translation [] False [] [e]
+    byHand = Translation [] False [ManualCommand region (kindOf c)] []
 
 -- | Words that a machine has for a command; empty if it has none.
 wordsFor :: CommandWords -> Command -> [CommandWord]
@@ -84,6 +106,10 @@ wordsFor table c = case c of
   Part.CoolantTo SwitchOff -> coolantOff table
   Part.Auxiliary _ -> auxiliary table
   Part.ChangeTool _ _ -> toolChange table
+  Part.SpindleByHand -> []
+  Part.ProgramStop -> programStop table
+  Part.OptionalStop -> optionalStop table
+  Part.Dwell _ -> dwell table
 
 -- | The kind of a command, by which reports name it.
 kindOf :: Command -> CommandKind
@@ -93,11 +119,15 @@ kindOf c = case c of
   Part.SpindleOff -> SpindleCommand
   Part.CoolantTo _ -> CoolantCommand
   Part.ChangeTool _ _ -> ToolCommand
+  Part.SpindleByHand -> SpindleCommand
+  Part.ProgramStop -> StopCommand
+  Part.OptionalStop -> StopCommand
+  Part.Dwell _ -> DwellCommand
 
 -- | The word with its number for a command. Empty if the number is the spindle speed and the
 -- program does not give it.
-numbersFor :: Command -> CommandWord -> [(CommandName, Int)]
-numbersFor c CommandWord {commandName, value} = map (commandName,) $ case value of
+numbersFor :: Machine -> Command -> CommandWord -> [(CommandName, Int)]
+numbersFor machine c CommandWord {commandName, value} = map (commandName,) $ case value of
   Fixed n -> [n]
   Argument -> case c of
     Part.Auxiliary n -> [n]
@@ -105,6 +135,16 @@ numbersFor c CommandWord {commandName, value} = map (commandName,) $ case value 
     _ -> maybe [] (pure . round) (spindleSpeed c)
   Step table -> [n | Just asked <- [spindleSpeed c], Just (n, _) <- [nearestStep table asked]]
   Diameter -> []
+  InSeconds -> [dwellNumber scale t | Part.Dwell t <- [c]]
+  InMilliseconds -> [dwellNumber (1000 * scale) t | Part.Dwell t <- [c]]
+  where
+    scale = 10 ^ Machine.commandDecimals machine commandName
+
+-- | Number of a dwell of @t@ seconds, with @scale@ units of the number in a second. It is rounded
+-- up, so that the machine does not wait less. An excess of a millionth over a whole number is an
+-- error of the computation, and is left out.
+dwellNumber :: Double -> Seconds -> Int
+dwellNumber scale (Seconds t) = max 1 (ceiling (t * scale - 1e-6))
 
 -- | Spindle speed that a command asks for, in turns per minute. Nothing for a command without a
 -- speed.
@@ -115,6 +155,10 @@ spindleSpeed c = case c of
   Part.CoolantTo _ -> Nothing
   Part.Auxiliary _ -> Nothing
   Part.ChangeTool _ _ -> Nothing
+  Part.SpindleByHand -> Nothing
+  Part.ProgramStop -> Nothing
+  Part.OptionalStop -> Nothing
+  Part.Dwell _ -> Nothing
 
 -- | Warning about a spindle speed that differs from the one asked for by more than 'speedSlack'.
 -- Empty for every other command.
@@ -153,10 +197,10 @@ nearestStep table asked = case Map.toList table of
 compensationOn :: Machine -> Region -> Side -> Mm -> Translation
 compensationOn machine asked side radius@(Mm r) =
   case Machine.compensation (Machine.commandWords machine) of
-    Nothing -> Translation [] [] [NoCompensation asked]
+    Nothing -> Translation [] False [] [NoCompensation asked]
     Just c -> case numberOf (if isLeft then compensateLeft c else compensateRight c) of
-      Just n -> Translation (n : switches c) [] []
-      Nothing -> Translation [] [] [DiameterOutOfRange asked (times 2 radius)]
+      Just n -> Translation (n : switches c) False [] []
+      Nothing -> Translation [] False [] [DiameterOutOfRange asked (times 2 radius)]
   where
     isLeft = (side == LeftOf) /= Machine.isMirrored machine
     switches c = [(commandName w, n) | Just w <- [radiusSwitch c], Fixed n <- [value w]]
@@ -172,6 +216,8 @@ compensationOn machine asked side radius@(Mm r) =
           scale = 10 ^ Machine.commandDecimals machine commandName
       Argument -> Nothing
       Step _ -> Nothing
+      InSeconds -> Nothing
+      InMilliseconds -> Nothing
     Mm planeResolution = Machine.planeResolution machine
 
 -- | Words that switch cutter compensation off.
@@ -183,6 +229,7 @@ compensationOff machine =
         let o = cancelCompensation c,
         Fixed n <- [value o]
     ]
+    False
     []
     []
 
@@ -195,19 +242,19 @@ data Pending = Pending {asked :: Region, given :: [(CommandName, Int)]}
 
 -- | Adds the words of a command to the pending ones; @region@ asks for the command. No word may
 -- occur twice in a frame. Therefore a command that repeats a word is divided into several groups.
--- Commands of cutter compensation may need a frame of their own.
+-- Stops, dwells and commands of cutter compensation may need a frame of their own.
 -- The result has the groups of words that need frames of their own now, and the group that remains
 -- pending.
 add ::
   Machine ->
   Region ->
-  [(CommandName, Int)] ->
+  Translation ->
   Maybe Pending ->
   ([Pending], Maybe Pending)
-add machine region commandWords pending = case (withoutRepetition commandWords, pending) of
+add machine region translation pending = case (withoutRepetition commandWords, pending) of
   ([], _) -> ([], pending)
   (groups, before)
-    | any ((`elem` lonely machine) . fst) commandWords ->
+    | isAlone translation || any ((`elem` lonely machine) . fst) commandWords ->
       (maybe [] pure before <> map group groups, Nothing)
   ([only], Just before)
     | not (any ((`elem` map fst (given before)) . fst) only) ->
@@ -215,6 +262,7 @@ add machine region commandWords pending = case (withoutRepetition commandWords, 
   (groups, before) ->
     (maybe [] pure before <> map group (init groups), Just (group (last groups)))
   where
+    commandWords = numbers translation
     group ws = Pending {asked = region, given = inOrder machine ws}
     withoutRepetition os = case os of
       [] -> []

@@ -48,6 +48,8 @@ data Error
   | -- | a number of a command that is too high for the machine, and the highest number that the
     -- machine has. This highest number is 0 if the machine has no such command
     NoSuchCommand Region CommandKind Int Int
+  | -- | a command at which the machine has to wait, and for which it has no word
+    CannotWait Region CommandKind
   | -- | more than the given number of frames, the largest that is allowed
     TooManyFrames Region Int
   | -- | more than the given number of contours, the largest that is allowed. The region is that of
@@ -84,9 +86,15 @@ data Warning
     ReaderTooSlow Region Int Int
   deriving stock (Eq, Ord, Show)
 
--- | Kind of a command. Every command that does not concern the spindle, the coolant or the tool is
--- an auxiliary command.
-data CommandKind = SpindleCommand | CoolantCommand | ToolCommand | AuxiliaryCommand
+-- | Kind of a command.
+data CommandKind
+  = SpindleCommand
+  | CoolantCommand
+  | ToolCommand
+  | StopCommand
+  | DwellCommand
+  | -- | every other command, by its number
+    AuxiliaryCommand
   deriving stock (Eq, Ord, Show)
 
 -- | Report of an error; @machine@ is the machine for which the program is compiled.
@@ -197,6 +205,20 @@ toReport machine err = case err of
           [ maybe "Leave it out, or compile for another machine." (\c -> "Write " <> c <> ".") meant
             | highest == 0,
               let meant = if kind == AuxiliaryCommand then commandOf n else Nothing
+          ]
+      }
+  CannotWait region kind ->
+    ( report
+        Report.Error
+        "E0510"
+        (InSource region)
+        ("the tape of " <> machineName machine <> " cannot hold " <> subjectOf kind)
+    )
+      { message = ["The machine would run on at a place at which it has to wait."],
+        fixes = [Fix.proposed (Fix.removal "Leave it out." region)],
+        hints =
+          [ "Write an auxiliary command that the machine is wired for: aux 1"
+            | not (null (Machine.auxiliary (Machine.commandWords machine)))
           ]
       }
   TooManyContours region limit ->
@@ -435,11 +457,6 @@ warningReport machine warning = case warning of
           ]
       }
   where
-    subjectOf kind = case kind of
-      SpindleCommand -> "a command for the spindle"
-      CoolantCommand -> "a command for the coolant"
-      ToolCommand -> "a change of the tool"
-      AuxiliaryCommand -> "this command"
     reason =
       case (Machine.feedMeasure (Machine.feeds machine), Machine.rule (Machine.feeds machine)) of
         (Machine.AlongPath, Machine.NotAbove) ->
@@ -482,12 +499,24 @@ startText p (Mm z) =
     <> Text.intercalate ", " (map (Decimal.short 6) ([Vec.x p, Vec.y p] <> [z | z /= 0]))
     <> ")"
 
+-- | Words for a command of a kind in a report.
+subjectOf :: CommandKind -> Text
+subjectOf kind = case kind of
+  SpindleCommand -> "a command for the spindle"
+  CoolantCommand -> "a command for the coolant"
+  ToolCommand -> "a change of the tool"
+  StopCommand -> "a stop"
+  DwellCommand -> "a dwell"
+  AuxiliaryCommand -> "this command"
+
 -- | Noun before the number of a command in a report, as in "the machine has no tool 7".
 numbered :: CommandKind -> Text
 numbered kind = case kind of
   SpindleCommand -> "spindle speed"
   CoolantCommand -> "coolant command"
   ToolCommand -> "tool"
+  StopCommand -> "stop"
+  DwellCommand -> "dwell"
   AuxiliaryCommand -> "auxiliary command"
 
 -- | Name of an axis in a report: x, y or z.

@@ -265,7 +265,7 @@ next :: Context -> Making -> Instruction -> Making
 next context@Context {machine, instructionContext} made instruction = case instruction of
   Words region translation ->
     let (full, pending') =
-          Command.add machine region (Command.numbers translation) (pending made)
+          Command.add machine region translation (pending made)
      in (foldl' (addCommands context) made full)
           { pending = pending',
             here = region,

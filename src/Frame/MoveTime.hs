@@ -1,17 +1,19 @@
 -- | The lengths of moves in space, and the times that they take on a machine.
 module Frame.MoveTime
   ( moveTime,
+    pathTime,
     moveLength,
   )
 where
 
-import Base.Quantity (Feed (..), Mm (..), Seconds (..), travelTime)
+import Base.Quantity (Feed (..), Mm (..), Seconds (..), total, travelTime)
 import Base.Region (Located (..))
 import Frame.FeedCode qualified as FeedCode
 import Geometry.Segment qualified as Segment
 import Machine.Machine (Machine)
-import Part.Part (Pace (..))
-import Toolpath.Toolpath (Move (..), heights, pace)
+import Part.Part (Command (Dwell), Pace (..))
+import Toolpath.Toolpath (Block (Commanding), Move (..), Toolpath (blocks), heights, pace)
+import Toolpath.Toolpath qualified as Toolpath
 
 -- | The time of a move at the feed of the machine; without a machine, at the feed of the program.
 -- A rapid move counts as 0 s if its speed is unknown. That is the case without a machine, and if
@@ -26,6 +28,14 @@ moveTime machine move = maybe (Seconds 0) (travelTime (moveLength move)) (feedOf
         feed -> Just feed
       (At (Located _ feed), Nothing) -> Just feed
       (At (Located _ feed), Just m) -> Just (FeedCode.expectedFeed m feed)
+
+-- | The time of all moves and dwells of a toolpath. A stop counts as 0 s.
+pathTime :: Maybe Machine -> Toolpath -> Seconds
+pathTime machine path =
+  total
+    ( map (moveTime machine) (concatMap Toolpath.moves (blocks path))
+        <> [t | Commanding (Located _ (Dwell t)) <- blocks path]
+    )
 
 -- | The length of a move in space: the hypotenuse of its length in the plane and its change of
 -- height.

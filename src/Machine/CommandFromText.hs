@@ -77,7 +77,10 @@ simpleEvents =
     "coolant-on",
     "coolant-off",
     "tool-change",
-    "auxiliary"
+    "auxiliary",
+    "stop",
+    "optional-stop",
+    "dwell"
   ]
 
 -- | Reads the section @commands@.
@@ -95,15 +98,18 @@ commands s = do
 -- | The command words of all events without their regions.
 commandWords :: Events -> CommandWords
 commandWords events = case map (map value) (simple events) of
-  [clockwise, counterClockwise, stop, on', off', tool', aux] ->
+  [clockwise, counterClockwise, rest, on', off', tool', aux, stop, optionalStop', dwell'] ->
     CommandWords
       { spindleClockwise = clockwise,
         spindleCounterClockwise = counterClockwise,
-        spindleOff = stop,
+        spindleOff = rest,
         coolantOn = on',
         coolantOff = off',
         toolChange = tool',
         auxiliary = aux,
+        programStop = stop,
+        optionalStop = optionalStop',
+        dwell = dwell',
         compensation = unlocated <$> compensations events,
         finish = map (fmap value) (endFrames events)
       }
@@ -164,7 +170,9 @@ wordFrom s = case (arguments s, block s) of
       located n . Step <$> FeedFromText.table (stepSection ss)
   _ -> withArguments forms oneNumber s
   where
-    forms = ["set M 8", "set S argument", "set D diameter", "set S steps { 1 = 63 … }"]
+    forms =
+      ["set M 8", "set S argument", "set D diameter", "set P seconds", "set P milliseconds"]
+        <> ["set S steps { 1 = 63 … }"]
     stepSection ss =
       DescriptionSection {sectionName = "the steps", sectionRegion = extent s, entries = ss}
     located n v = Located (extent s) (CommandWord (CommandName n) v)
@@ -175,6 +183,9 @@ wordFrom s = case (arguments s, block s) of
     oneNumber args = case args of
       [name, Located _ (Word "argument")] -> pure . (`located` Argument) <$> nameFrom name
       [name, Located _ (Word "diameter")] -> pure . (`located` Diameter) <$> nameFrom name
+      [name, Located _ (Word "seconds")] -> pure . (`located` InSeconds) <$> nameFrom name
+      [name, Located _ (Word "milliseconds")] ->
+        pure . (`located` InMilliseconds) <$> nameFrom name
       [name, a] -> do
         n <- nameFrom name
         fmap (located n . Fixed) <$> wholeIn "the number" 0 999999999 a
@@ -241,6 +252,8 @@ givesZero v = case v of
   Step t -> Map.member 0 t
   Argument -> False
   Diameter -> False
+  InSeconds -> False
+  InMilliseconds -> False
 
 -- | Reports numbers above @most@, the largest number that the command's word or bits can hold. It
 -- also reports whole numbers in a word with decimals.
@@ -250,6 +263,8 @@ sizeFaults machine r name most v = case v of
   Argument -> decimalsFault
   Step t -> tooLarge (take 1 (filter (> most) (Map.keys t))) <> decimalsFault
   Diameter -> []
+  InSeconds -> []
+  InMilliseconds -> []
   where
     tooLarge ks = [BadCommand r (NumberTooLarge k most) | k <- ks, k > most]
     decimalsFault =
@@ -267,6 +282,8 @@ eventFaults r event v = case v of
   Argument -> onlyFor "argument" (spindleEvents <> ["tool-change", "auxiliary"])
   Step _ -> onlyFor "steps" spindleEvents
   Diameter -> onlyFor "diameter" ["compensation"]
+  InSeconds -> onlyFor "seconds" ["dwell"]
+  InMilliseconds -> onlyFor "milliseconds" ["dwell"]
   where
     spindleEvents = ["spindle-clockwise", "spindle-counterclockwise"]
     onlyFor kind events = [BadCommand r (NoSuchValue kind event) | event `notElem` events]

@@ -23,6 +23,9 @@ data CommandWords = CommandWords
     coolantOff :: [CommandWord],
     toolChange :: [CommandWord],
     auxiliary :: [CommandWord],
+    programStop :: [CommandWord],
+    optionalStop :: [CommandWord],
+    dwell :: [CommandWord],
     compensation :: Maybe CompensationCommands,
     -- | numbers in the last frames of a program, one list for each frame; these frames contain no
     -- move
@@ -48,6 +51,10 @@ data CommandValue
     Step (Map Int Double)
   | -- | diameter of the cutter, in mm
     Diameter
+  | -- | time of the dwell, in seconds
+    InSeconds
+  | -- | time of the dwell, in milliseconds
+    InMilliseconds
   deriving stock (Eq, Show)
 
 -- | Commands for cutter compensation: left (G41), right (G42) and off (G40).
@@ -63,4 +70,4 @@ data CompensationCommands = CompensationCommands
 
 -- | The numbers of a machine whose tape cannot give any command.
 noCommandWords :: CommandWords
-noCommandWords = CommandWords [] [] [] [] [] [] [] Nothing []
+noCommandWords = CommandWords [] [] [] [] [] [] [] [] [] [] Nothing []

@@ -502,7 +502,7 @@ commandReport region fault = case fault of
   InDecimals ->
     (wrong "a whole number in a word with decimals")
       { hints =
-          ["Only a diameter goes into a word with decimals."]
+          ["Only a diameter or a time goes into a word with decimals."]
       }
   ZeroIsNoCommand ->
     (wrong "0 stands there when nothing is asked")

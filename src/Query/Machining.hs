@@ -15,7 +15,7 @@ import Data.Map.Strict qualified as Map
 import Data.Text (Text)
 import Frame.Frame (FrameProgram, PlannedFrame (PlannedFrame, role), Role (Drilling))
 import Frame.Frame qualified as Frame
-import Frame.MoveTime (moveLength, moveTime)
+import Frame.MoveTime (moveLength, moveTime, pathTime)
 import Machine.Machine (Machine, MachineName (..))
 import Machine.Machine qualified as Machine
 import Toolpath.Toolpath (Block (..), Toolpath (..))
@@ -54,7 +54,7 @@ summary toolpath machine program =
     MachineSummary
       { machine = name,
         frames = length planned,
-        time = total (map (moveTime (Just machine)) (concatMap Toolpath.moves (blocks toolpath))),
+        time = pathTime (Just machine) toolpath,
         work
       }
     work

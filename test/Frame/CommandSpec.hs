@@ -1,16 +1,19 @@
 -- | Laws of commands.
 module Frame.CommandSpec (spec) where
 
-import Base.Quantity (Feed (..), Mm (..))
+import Base.Quantity (Feed (..), Mm (..), Seconds (..))
 import Base.Region (Located (..), Region (Region))
 import Base.Result qualified as Result
 import Data.Text (Text)
+import Data.Text qualified as Text
+import Files (readText)
 import Frame.Error (CommandKind (..), Error (..), Warning (..))
 import Frame.Frame (Frame (..), PlannedFrame (frame))
 import Frame.Frame qualified as Frame
 import Frame.Made qualified as Made
 import Geometry.Segment (Segment (Straight))
 import Geometry.Vec qualified as Vec
+import Machine.FromText qualified as FromText
 import Machine.Machine (CommandName (..), Machine)
 import Machines qualified
 import Part.Part (Command (..), CutterKind (..), Pace (..), Sense (..), Switch (..))
@@ -96,6 +99,56 @@ spec = do
           | v <- [500, 560, 460, 1e5]
         ]
         `shouldBe` [0, 1, 0, 1]
+  describe "a stop" $ do
+    it
+      "has a frame of its own, after the commands before it (catches a stop in the frame of a \
+      \move, which is made first)"
+      $ commandsOf iso [c (SpindleOn Clockwise Nothing), c ProgramStop, go, c OptionalStop, go]
+        `shouldBe` [ (False, [("M", 3)]),
+                     (False, [("M", 0)]),
+                     (True, []),
+                     (False, [("M", 1)]),
+                     (True, []),
+                     (False, [("M", 5)]),
+                     (False, [("M", 30)])
+                   ]
+    it
+      "and a dwell are refused on a machine without words for them (catches a machine that runs \
+      \on)"
+      $ [ [kind | CannotWait _ kind <- Result.errors (quantised (Machines.named m) [c x, go])]
+          | (m, x) <-
+              [ ("lkp-01f", ProgramStop),
+                ("n55", OptionalStop),
+                ("iso6983", OptionalStop),
+                ("iso6983", Dwell (Seconds 2))
+              ]
+        ]
+        `shouldBe` [[StopCommand], [StopCommand], [], [DwellCommand]]
+  describe "a dwell" $
+    it
+      "is never shorter than asked, and longer by less than one unit (catches a time that is \
+      \rounded down)"
+      $ ioProperty $ do
+        description <- readText "test/machines/dwell.machine"
+        let machineWith unit =
+              Result.ifSound
+                (FromText.read (Text.replace "pause seconds" ("pause " <> unit) description))
+            found = [(machineWith "seconds", 100), (machineWith "milliseconds", 100000)]
+        pure . forAll (choose (0.0001, 0.0999)) $ \t ->
+          conjoin
+            [ case (\m -> commandsOf m [c (Dwell (Seconds t)), go]) <$> machine of
+                Just ((False, [("pause", n)]) : (True, []) : _) ->
+                  let excess = fromIntegral n - t * unitsInSecond :: Double
+                   in counterexample (show excess) (excess >= -1e-6 && excess < 1)
+                frames -> counterexample (show frames) False
+              | (machine, unitsInSecond) <- found
+            ]
+  describe "the spindle by hand" $
+    it "has no frame and no warning on any machine" $
+      [ (length (commandsOf m byHand), Result.warnings (quantised m byHand))
+        | m <- [kontur, Machines.named "lkp-01f"]
+      ]
+        `shouldBe` [(1, []), (1, [])]
   describe "a command without a word" $ do
     it "is left to the operator" $
       [ Result.warnings (quantised (Machines.named m) [c x, go])
@@ -130,10 +183,11 @@ spec = do
                      [(SpindleCommand, 1000000, 99999)]
                    ]
   where
+    byHand = [c SpindleByHand, go]
     c = Left
     go = Right (1 :: Double)
     stay = Right 0
-    tool n = ChangeTool n (Part.Cutter MillingCutter (Mm 1) Nothing)
+    tool n = ChangeTool n (Part.Cutter MillingCutter (Mm 1) Nothing Nothing)
     kontur = Machines.named "kontur-3p"
     iso = Machines.named "iso6983"
 

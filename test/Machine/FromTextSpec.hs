@@ -273,11 +273,12 @@ furnished m = do
 -- | Random commands for the words and bits of a machine.
 commandsFor :: Machine -> Gen CommandWords
 commandsFor m = do
-  listed <- traverse (const event) [1 .. 7 :: Int]
+  listed <- traverse (const event) [1 .. 9 :: Int]
+  dwells <- sublistOf names >>= traverse dwellWord
   ends <- resize 3 (listOf (fixedWord m =<< elements ("" : names)))
   compensated <- elements [Nothing, Just False, Just True]
   pure $ case (listed, names) of
-    ([b, c, d, e, f, g, h], n : _) ->
+    ([b, c, d, e, f, g, h, i, j], n : _) ->
       CommandWords
         { spindleClockwise = b,
           spindleCounterClockwise = c,
@@ -286,6 +287,9 @@ commandsFor m = do
           coolantOff = onlyFixed f,
           toolChange = withoutSteps g,
           auxiliary = withoutSteps h,
+          programStop = onlyFixed i,
+          optionalStop = onlyFixed j,
+          dwell = dwells,
           compensation = compensationBy m n <$> compensated,
           finish = [o NonEmpty.:| [] | Just o <- ends]
         }
@@ -300,6 +304,9 @@ commandsFor m = do
       Fixed _ -> False
       Argument -> False
       Diameter -> False
+      InSeconds -> False
+      InMilliseconds -> False
+    dwellWord n = CommandWord (CommandName n) <$> elements [InSeconds, InMilliseconds]
 
 -- | Names of the commands for which a frame has a word or bits.
 namesOfCommands :: Machine -> [Text]

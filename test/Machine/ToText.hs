@@ -220,12 +220,17 @@ commandLines o =
         ("coolant-on", coolantOn o),
         ("coolant-off", coolantOff o),
         ("tool-change", toolChange o),
-        ("auxiliary", auxiliary o)
+        ("auxiliary", auxiliary o),
+        ("stop", programStop o),
+        ("optional-stop", optionalStop o),
+        ("dwell", dwell o)
       ]
     commandWordLines (CommandWord (CommandName n) v) = case v of
       Fixed k -> ["set " <> quoted n <> " " <> Decimal.whole k]
       Argument -> ["set " <> quoted n <> " argument"]
       Diameter -> ["set " <> quoted n <> " diameter"]
+      InSeconds -> ["set " <> quoted n <> " seconds"]
+      InMilliseconds -> ["set " <> quoted n <> " milliseconds"]
       Step t ->
         block
           ("set " <> quoted n <> " steps")
