@@ -74,13 +74,18 @@
     ("\\_<\\(?:part\\|let\\|param\\|table\\|curve\\|piece\\|contour\\)[ \t]+\\(\\(?:\\sw\\|\\s_\\)+\\)"
      1 font-lock-variable-name-face)
     ;; These words begin a line; elsewhere they are names.
-    ("^[ \t]*\\(pocket\\)[ \t]+\\(?:\\sw\\|\\s_\\)" 1 font-lock-keyword-face)
+    ("^[ \t]*\\(pocket\\|work\\|program\\|safe\\|dwell\\)[ \t]+[(-]?\\(?:\\sw\\|\\s_\\)"
+     1 font-lock-keyword-face)
+    ("^[ \t]*\\(\\(?:optional[ \t]+\\)?stop\\)[ \t]*\\(?:--.*\\)?$" 1 font-lock-keyword-face)
     (,(concat "\\(?:^\\|{\\)[ \t]*\\(" (regexp-opt part-mode-settings) "\\)\\_>")
      1 font-lock-keyword-face)
     ;; These words occur only after others; elsewhere they are names.
     ("\\_<lead[ \t]+\\(?:in\\|out\\)[ \t]+\\(line\\|arc\\)\\_>" 1 font-lock-keyword-face)
     ("\\_<lead[ \t]+\\(out\\)\\_>" 1 font-lock-keyword-face)
     ("\\_<\\(?:spindle\\|coolant\\)[ \t]+\\(off\\)\\_>" 1 font-lock-keyword-face)
+    ("\\_<spindle[ \t]+\\(manual\\)\\_>" 1 font-lock-keyword-face)
+    ("\\_<change\\_>.*)[ \t]*\\(at\\)\\_>" 1 font-lock-keyword-face)
+    ("^[ \t]*dwell[ \t].*\\_<\\(s\\)[ \t]*\\(?:--.*\\)?$" 1 font-lock-keyword-face)
     ("\\_<corners[ \t]+\\(round\\|sharp\\)\\_>" 1 font-lock-keyword-face)
     ("\\_<compensation[ \t]+\\(compiler\\|controller\\)\\_>" 1 font-lock-keyword-face)
     ("\\_<rest[ \t]+\\(allowed\\)\\_>" 1 font-lock-keyword-face)
@@ -88,6 +93,7 @@
     ("\\_<\\(cone\\|blade\\)(" 1 font-lock-keyword-face)
     ("(\\(diameter\\|nose\\)\\_>" 1 font-lock-keyword-face)
     (",[ \t]*\\(height\\|gear\\)\\_>" 1 font-lock-keyword-face)
+    ("\\_<turn(.*,[ \t]*\\(tip\\)\\_>" 1 font-lock-keyword-face)
     ("\\_<\\(cipher\\|joggle\\)\\_>" 1 font-lock-keyword-face)
     ("\\_<joggle\\_>.*\\_<\\(to\\)\\_>.*\\_<\\(depth\\)\\_>.*\\_<\\(radius\\)\\_>"
      (1 font-lock-keyword-face) (2 font-lock-keyword-face) (3 font-lock-keyword-face))

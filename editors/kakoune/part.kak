@@ -50,12 +50,16 @@ provide-module part %§
     # The other words that cannot be names
     add-highlighter shared/part/code/ regex \b(for|if|in|then|else|and|or|not|open|closed|cw|ccw|meet|near|smooth|tangent|fillet|chamfer|slow|allowance|bevel|outside|inside|left|right|on|within|first|last|approach|retract)\b 1:keyword
     # Words that begin a line and are names elsewhere
-    add-highlighter shared/part/code/ regex ^\h*(pocket)\h+\w 1:keyword
+    add-highlighter shared/part/code/ regex ^\h*(pocket|work|program|safe|dwell)\h+[(-]?\w 1:keyword
+    add-highlighter shared/part/code/ regex ^\h*((?:optional\h+)?stop)\h*$ 1:keyword
     add-highlighter shared/part/code/ regex (?:^|\{)\h*(depth|lead|corners|climb|conventional|compensation|start|plunge|peck|islands|rest)\b 1:keyword
     # Words that follow others and are names elsewhere
     add-highlighter shared/part/code/ regex \blead\h+(?:in|out)\h+(line|arc)\b 1:keyword
     add-highlighter shared/part/code/ regex \blead\h+(out)\b 1:keyword
     add-highlighter shared/part/code/ regex \b(?:spindle|coolant)\h+(off)\b 1:keyword
+    add-highlighter shared/part/code/ regex \bspindle\h+(manual)\b 1:keyword
+    add-highlighter shared/part/code/ regex \bchange\b[^\n]*\)\h*(at)\b 1:keyword
+    add-highlighter shared/part/code/ regex ^\h*dwell\h[^\n]*\b(s)\h*$ 1:keyword
     add-highlighter shared/part/code/ regex \bcorners\h+(round|sharp)\b 1:keyword
     add-highlighter shared/part/code/ regex \bcompensation\h+(compiler|controller)\b 1:keyword
     add-highlighter shared/part/code/ regex \brest\h+(allowed)\b 1:keyword
@@ -68,6 +72,7 @@ provide-module part %§
     add-highlighter shared/part/code/ regex \b(cone|blade)\( 1:keyword
     add-highlighter shared/part/code/ regex \((diameter|nose)\b 1:keyword
     add-highlighter shared/part/code/ regex ,\h*(height|gear)\b 1:keyword
+    add-highlighter shared/part/code/ regex \bturn\([^\n]*,\h*(tip)\b 1:keyword
 
     # Functions and constants
     add-highlighter shared/part/code/ regex \b(polar|intersection|centre_of|midpoint|foot_of|tangency|point_on|line|horizontal|vertical|parallel|perpendicular|circle|concentric|distance|direction_of|radius_of|length_of|x_of|y_of|spline|closed_spline|polyline|parabola|arcs|closed_arcs|fit|sections|rows_of|points_of|point_at_x|point_along|length_along|start_of|end_of|tangent_of|normal_of|curvature_of|moved|rotated|mirrored|scaled|reversed|row|grid|around|count_of|item_of|lift|sin|cos|tan|asin|acos|atan2|sqrt|abs|min|max|floor)\( 1:builtin

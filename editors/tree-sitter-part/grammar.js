@@ -59,9 +59,10 @@ module.exports = grammar({
 
     _statement: $ => choice(
       $.part, $.machine, $.import, $.tool, $.feed, $.tolerance, $.clearance, $.from,
+      $.work, $.program_number, $.safe,
       $.let, $.param, $.table, $.curve, $.piece, $.contour, $.assert,
       $.mill, $.turn, $.pocket, $.drill, $.rapid, $.move,
-      $.change, $.spindle, $.coolant, $.aux,
+      $.change, $.spindle, $.coolant, $.aux, $.program_stop, $.optional_stop, $.dwell,
       $.for, $.if, $.with,
     ),
 
@@ -70,7 +71,7 @@ module.exports = grammar({
     part: $ => seq('part', field('name', $.name), optional(field('title', $.text))),
     machine: $ => seq('machine', field('name', choice($.machine_name, $.text))),
     import: $ => seq('import', field('file', $.text)),
-    tool: $ => seq('tool', $._cutter),
+    tool: $ => seq('tool', optional($._expression), $._cutter),
     feed: $ => seq('feed', $._expression),
     tolerance: $ => seq(
       'tolerance',
@@ -78,6 +79,9 @@ module.exports = grammar({
     ),
     clearance: $ => seq('clearance', $._expression),
     from: $ => seq('from', $._expression),
+    work: $ => seq('work', $._expression),
+    program_number: $ => seq('program', $._expression),
+    safe: $ => seq('safe', $._expression),
 
     let: $ => seq(
       'let',
@@ -142,10 +146,13 @@ module.exports = grammar({
     drill: $ => seq('drill', 'at', $._expression, 'depth', $._expression, optional($.settings)),
     rapid: $ => seq('rapid', $._stops),
     move: $ => seq('move', $._stops),
-    change: $ => seq('change', $._expression, $._cutter),
-    spindle: $ => seq('spindle', choice('off', seq($._sense, optional(seq($._same_line, $._expression))))),
+    change: $ => seq('change', $._expression, $._cutter, optional(seq('at', $._expression))),
+    spindle: $ => seq('spindle', choice('off', 'manual', seq($._sense, optional(seq($._same_line, $._expression))))),
     coolant: $ => seq('coolant', choice('on', 'off')),
     aux: $ => seq('aux', $._expression),
+    program_stop: _ => 'stop',
+    optional_stop: _ => seq('optional', 'stop'),
+    dwell: $ => seq('dwell', $._expression, 's'),
 
     for: $ => seq(
       'for',
@@ -169,7 +176,9 @@ module.exports = grammar({
       $.blade,
     ),
     upright_cutter: $ => seq(choice('mill', 'drill'), '(', 'diameter', $._expression, ')'),
-    turning_cutter: $ => seq('turn', '(', 'nose', $._expression, ')'),
+    turning_cutter: $ => seq(
+      'turn', '(', 'nose', $._expression, optional(seq(',', 'tip', $._expression)), ')',
+    ),
     cone: $ => seq(
       'cone',
       '(',

@@ -50,8 +50,15 @@ statements =
       ("clearance", "Gives the height from here on at which rapid moves pass over everything."),
       ("from", "Gives the position of the cutter's centre when the tape begins."),
       ("diameter", "Gives the diameter of a tool."),
-      ("nose", "Gives the radius of the nose of a turning tool.")
+      ("nose", "Gives the radius of the nose of a turning tool."),
+      ("tip", "Gives the direction of the tip of a turning tool, as a tool table has it.")
     ]
+    <> under
+      "language.md#settings-for-modern-controls"
+      [ ("work", "Gives the work offset, from 54 to 59."),
+        ("program", "Gives the number of the program, from 1 to 9999."),
+        ("safe", "Gives the height above all clamps, for controls without homing.")
+      ]
     <> under
       "language.md#tolerance"
       [("tolerance", "Gives the permitted chord error.")]
@@ -160,7 +167,7 @@ machining =
     <> under
       "language.md#drilling"
       [ ("drill", "Drills holes; in a tool, it is a drill."),
-        ("at", "Comes before the points of the holes.")
+        ("at", "Comes before the points of the holes, or before the point of a tool change.")
       ]
     <> under "language.md#turning" [("turn", "Turns a profile; in a tool, it is a turning tool.")]
     <> under
@@ -171,7 +178,12 @@ machining =
         ("spindle", "Starts the spindle in a sense and with a speed, or stops it."),
         ("coolant", "Switches the coolant on or off."),
         ("off", "Stops the spindle, or switches the coolant off."),
-        ("aux", "Gives an auxiliary command by its number.")
+        ("aux", "Gives an auxiliary command by its number."),
+        ("manual", "Says that the spindle is switched by hand."),
+        ("stop", "Stops until the operator starts the program again."),
+        ("optional", "Begins a stop that a switch of the control turns on."),
+        ("dwell", "Stops the axes for a time in seconds."),
+        ("s", "Is the second, after the time of a dwell.")
       ]
 
 settings :: [(Text, ManualEntry)]

@@ -245,9 +245,13 @@ inCutter kind written = case drop (length parts - 1) (SlotWord.cutterWords kind)
   [] -> []
   w : _ -> case last parts of
     [] -> [AtWord [GrammarWord w (w <> " ")]]
-    _ : rest -> operand [AtValue [if w == "bevel" then Type.angle else Type.len] False] [] rest
+    _ : rest -> operand [AtValue [typeOf w] False] [] rest
   where
     parts = segments written
+    typeOf w = case w of
+      "bevel" -> Type.angle
+      "tip" -> Type.number
+      _ -> Type.len
 
 -- | The slots in the values of a cipher. Values along the curve may name the columns of its table.
 inCipher :: [(Text, Type)] -> Text -> [Token] -> [Slot]

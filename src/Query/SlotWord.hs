@@ -49,13 +49,16 @@ statement keyword w = lookup w (entries keyword)
 entries :: Text -> [(Text, ([Slot], [Slot]))]
 entries keyword = case keyword of
   "machine" -> own [AtMachine] []
-  "tool" -> own [AtCutter] []
+  "tool" -> own [AtCutter] [AtCutter] <> [(k, ([], [])) | k <- cutterKinds]
   "feed" -> own (value Type.feed) []
   "tolerance" ->
     own (words' ["inside"] <> value Type.len) []
       <> [("inside", (value Type.len, words' ["outside"])), ("outside", (value Type.len, []))]
   "clearance" -> own (value Type.len) []
   "from" -> own stops []
+  "work" -> own [AtWord [GrammarWord n n | n <- ["54", "55", "56", "57", "58", "59"]]] []
+  "program" -> own (value Type.number) []
+  "safe" -> own (value Type.len) []
   "let" -> [(keyword, ([], [])), ("=", (anything, []))]
   "param" -> [(keyword, ([], [])), ("=", (anything, []))]
   "curve" -> [(keyword, ([], [])), ("=", (value (Curve (Variable 0)), []))]
@@ -71,21 +74,35 @@ entries keyword = case keyword of
       <> [ ("at", ([AtValue [ListOf Type.aPoint, Type.aPoint] False], words' ["depth"])),
            ("depth", (value Type.len, []))
          ]
-  "rapid" -> own stops (words' ["feed"]) <> [("feed", (value Type.feed, []))]
-  "move" -> own stops (words' ["feed", "rapid"]) <> [("feed", (value Type.feed, []))]
-  "change" -> own (value Type.number) [AtCutter]
-  "spindle" ->
-    own (words' ["cw", "ccw", "off"]) []
-      <> [(sense, (value Type.spindleSpeed, [])) | sense <- ["cw", "ccw"]]
-  "coolant" -> own (words' ["on", "off"]) []
-  "aux" -> own (value Type.number) []
   "with" -> own (value Transformation) []
   "for" -> own [] (words' ["in"]) <> [("in", (value (ListOf (Variable 0)), []))]
   "if" -> own (value Boolean) [] <> [("else", (words' ["if"], []))]
-  _ -> []
+  _ -> commandEntries keyword
   where
     own follows after = [(keyword, (follows, after))]
     onContour after = own (value Contour) after <> [(s, ([], [])) | s <- sides]
+
+-- | The entries of moves and commands.
+commandEntries :: Text -> [(Text, ([Slot], [Slot]))]
+commandEntries keyword = case keyword of
+  "rapid" -> own stops (words' ["feed"]) <> [("feed", (value Type.feed, []))]
+  "move" -> own stops (words' ["feed", "rapid"]) <> [("feed", (value Type.feed, []))]
+  "change" ->
+    own (value Type.number) [AtCutter] <> [(k, ([], words' ["at"])) | k <- cutterKinds]
+      <> [("at", (stops, []))]
+  "spindle" ->
+    own (words' ["cw", "ccw", "off", "manual"]) []
+      <> [(sense, (value Type.spindleSpeed, [])) | sense <- ["cw", "ccw"]]
+  "coolant" -> own (words' ["on", "off"]) []
+  "aux" -> own (value Type.number) []
+  "optional" -> own (words' ["stop"]) []
+  "dwell" -> own (value Type.number) (words' ["s"])
+  _ -> []
+  where
+    own follows after = [(keyword, (follows, after))]
+
+cutterKinds :: [Text]
+cutterKinds = ["mill", "drill", "turn", "cone", "blade"]
 
 pieceEntries :: [(Text, ([Slot], [Slot]))]
 pieceEntries =
@@ -176,7 +193,7 @@ afterElement =
 -- | The words in the parentheses of a cutter of this kind, in order.
 cutterWords :: Text -> [Text]
 cutterWords kind = case kind of
-  "turn" -> ["nose"]
+  "turn" -> ["nose", "tip"]
   "cone" -> ["diameter", "bevel", "height"]
   "blade" -> ["diameter", "gear"]
   _ -> ["diameter"]
@@ -220,3 +237,4 @@ words1 ws = AtWord [GrammarWord w (w <> if w `elem` final then "" else " ") | w 
     final =
       ["open", "closed", "off", "on", "round", "sharp", "compiler", "controller", "allowed", "slow"]
         <> ["inside", "outside", "left", "right", "smooth", "tangent", "meet", "rapid"]
+        <> ["manual", "stop", "s"]

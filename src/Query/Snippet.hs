@@ -24,6 +24,9 @@ statements =
     ("tolerance", "tolerance ${1:0.02 mm}"),
     ("clearance", "clearance ${1:3 mm}"),
     ("from", "from (${1:0}, ${2:0})"),
+    ("work", "work ${1:54}"),
+    ("program", "program ${1:1}"),
+    ("safe", "safe ${1:40 mm}"),
     ("let", "let ${1:name} = $0"),
     ("param", "param ${1:name} = $0"),
     ("contour", "contour ${1:name} closed {\n  $0\n}"),
@@ -37,6 +40,9 @@ statements =
     ("spindle", "spindle ${1:cw}"),
     ("coolant", "coolant ${1:on}"),
     ("aux", "aux ${1:1}"),
+    ("stop", "stop"),
+    ("optional", "optional stop"),
+    ("dwell", "dwell ${1:2} s"),
     ("for", "for ${1:p} in ${2:list} {\n  $0\n}"),
     ("if", "if ${1:condition} {\n  $0\n}"),
     ("with", "with ${1:rotated(90 deg)} {\n  $0\n}"),
@@ -77,7 +83,7 @@ cutters =
 
 -- | The keywords of the statements that a program has at most once.
 onceOnly :: [Text]
-onceOnly = ["part", "machine", "tool", "tolerance", "from"]
+onceOnly = ["part", "machine", "tool", "tolerance", "from", "work", "program", "safe"]
 
 -- | The text of a snippet without its marks, for a client that does not know them.
 plain :: Text -> Text

@@ -27,7 +27,7 @@ statements = do
     best "^" `shouldBe` ["part"]
     best "-- a comment\n^" `shouldBe` ["part"]
   it "offers each statement at the beginning of a line, and once those that a program has once" $ do
-    labels (header <> "^") `shouldSatisfy` all' ["mill", "let", "feed", "contour", "pocket"]
+    labels (header <> "^") `shouldSatisfy` all' ["mill", "let", "feed", "contour", "pocket", "stop"]
     labels (header <> "^") `shouldSatisfy` none ["part", "machine", "tool", "tolerance", "from"]
   it "offers the statements in a block" $
     labels "part p\nfor p in [(0, 0)] {\n  ^\n}\n" `shouldSatisfy` all' ["rapid", "drill", "let"]
@@ -89,7 +89,12 @@ words' = do
   it "offers the words of statements and settings" $ do
     labels (drawn <> "mill rim ^") `shouldBe` ["outside", "inside", "left", "right", "on"]
     labels "part p\ncontour a ^" `shouldBe` ["closed", "open"]
-    labels "part p\nspindle ^" `shouldBe` ["cw", "ccw", "off"]
+    labels "part p\nspindle ^" `shouldBe` ["cw", "ccw", "off", "manual"]
+    labels "part p\noptional ^" `shouldBe` ["stop"]
+    labels "part p\nlet n = 2\ndwell n ^" `shouldBe` ["s"]
+    labels "part p\nchange 2 mill(diameter 5) ^" `shouldBe` ["at"]
+    labels "part p\nchange 2 turn(nose 1, ^" `shouldBe` ["tip"]
+    labels "part p\nlet n = 2\ntool n ^" `shouldSatisfy` all' ["mill", "turn", "cone"]
     labels (drawn <> "mill rim outside {\n  lead ^") `shouldBe` ["in", "out"]
     labels (drawn <> "mill rim outside {\n  ^")
       `shouldSatisfy` all' ["approach", "lead in", "depth"]

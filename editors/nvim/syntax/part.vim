@@ -11,8 +11,13 @@ syntax region partText start=/"/ end=/"/ oneline contains=@Spell
 syntax match partNumber /\<\d\+\(\.\d\+\)\?/
 syntax keyword partStatement part machine import tool feed tolerance clearance from let param table curve piece contour assert
 syntax keyword partStatement mill turn drill rapid move change spindle coolant aux with
-" A name as well, but for where a statement begins.
-syntax match partStatement /^\s*\zs\<pocket\ze\s\+\k/
+" Names as well, but for where a statement begins.
+syntax match partStatement /^\s*\zs\<\(pocket\|work\|program\|safe\|dwell\)\ze\s\+[(-]\?\k/
+syntax match partStatement /^\s*\zs\<\(optional\s\+\)\?stop\ze\s*\(--.*\)\?$/
+syntax match partStatement /\(\<spindle\s\+\)\@<=manual\>/
+syntax match partStatement /\(\<change\>.*)\s*\)\@<=at\>/
+syntax match partStatement /\(^\s*dwell\s.*\)\@<=\<s\ze\s*\(--.*\)\?$/
+syntax match partCutter /\(\<turn(.*,\s*\)\@<=tip\>/
 syntax keyword partRepeat for in if then else and or not
 syntax keyword partWalk cw ccw open closed
 syntax keyword partLink meet near smooth tangent fillet chamfer slow bevel

@@ -13,6 +13,7 @@
   "part" "machine" "import" "tool" "feed" "tolerance" "clearance" "from"
   "let" "param" "table" "curve" "piece" "contour" "assert"
   "mill" "turn" "pocket" "drill" "rapid" "move" "change" "spindle" "coolant" "aux" "with"
+  "work" "program" "safe" "stop" "optional" "dwell"
 ] @keyword
 
 ; Repetition and choice
@@ -33,7 +34,7 @@
   "on" "off" "at" "step"
   "approach" "retract" "depth" "lead" "out" "line" "arc" "allowance" "corners" "round" "sharp"
   "compensation" "compiler" "controller" "start" "plunge" "peck" "islands" "rest" "allowed"
-  "diameter" "nose" "cone" "blade" "height" "gear"
+  "diameter" "nose" "cone" "blade" "height" "gear" "tip" "manual" "s"
 ] @keyword
 (climb) @keyword
 (conventional) @keyword
