@@ -7,6 +7,7 @@
 module Frame.CommandState
   ( CommandState (..),
     initial,
+    isEvent,
     after,
     between,
   )
@@ -38,7 +39,24 @@ after state command = case command of
   CoolantTo SwitchOn -> state {coolantRuns = True}
   CoolantTo SwitchOff -> state {coolantRuns = False}
   ChangeTool n _ -> state {tool = Just n, spindle = Nothing}
+  SpindleByHand -> state {spindle = Nothing}
   Auxiliary _ -> state
+  ProgramStop -> state
+  OptionalStop -> state
+  Dwell _ -> state
+
+-- | True for a command that happens once and changes no state.
+isEvent :: Command -> Bool
+isEvent command = case command of
+  Auxiliary _ -> True
+  ProgramStop -> True
+  OptionalStop -> True
+  Dwell _ -> True
+  SpindleOn _ _ -> False
+  SpindleOff -> False
+  CoolantTo _ -> False
+  ChangeTool _ _ -> False
+  SpindleByHand -> False
 
 -- | Words of a machine that lead from one state to another, in one group for each command.
 between :: Machine -> CommandState -> CommandState -> [[(CommandName, Int)]]
@@ -69,3 +87,5 @@ numbers argument ws = [(commandName w, n) | w <- ws, Just n <- [numberOf (value 
       Argument -> argument
       Step _ -> Nothing
       Diameter -> Nothing
+      InSeconds -> Nothing
+      InMilliseconds -> Nothing

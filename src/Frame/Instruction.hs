@@ -13,7 +13,7 @@ module Frame.Instruction
 where
 
 import Base.Quantity (Feed, Mm (..), minus)
-import Base.Region (Located (..), Region (..))
+import Base.Region (Located (..), Region)
 import Data.List (mapAccumL, zipWith4)
 import Data.List.NonEmpty (NonEmpty (..))
 import Data.List.NonEmpty qualified as NonEmpty
@@ -76,21 +76,19 @@ instructions machine path = concat (arranged (zip blocks ofBlocks))
 byState :: Machine -> (CommandState, CommandState) -> [(Block, [Instruction])] -> [[Instruction]]
 byState machine states@(before, now) list = case list of
   [] -> []
-  (Toolpath.Commanding c, reported) : more
-    | Part.Auxiliary _ <- value c -> reported : byState machine states more
-    | otherwise -> onlyReports reported : byState machine (before, after (value c)) more
-  (block, made) : more
-    | null (Toolpath.moves block) -> made : byState machine states more
-    | otherwise -> (switched block <> made) : byState machine (now, now) more
+  (Toolpath.Commanding c, made) : more
+    | CommandState.isEvent (value c) ->
+      (switched (region c) <> made) : byState machine (now, now) more
+    | otherwise ->
+      onlyReports made : byState machine (before, CommandState.after now (value c)) more
+  (block, made) : more -> case Toolpath.moves block of
+    [] -> made : byState machine states more
+    m : _ -> (switched (Toolpath.origin m) <> made) : byState machine (now, now) more
   where
-    after = CommandState.after now
-    switched block =
-      [ Words (originOf block) (Command.Translation ws [] [])
+    switched asked =
+      [ Words asked (Command.Translation ws False [] [])
         | ws <- CommandState.between machine before now
       ]
-    originOf block = case Toolpath.moves block of
-      m : _ -> Toolpath.origin m
-      [] -> Region 0 0
     onlyReports made = [Words r t {Command.numbers = []} | Words r t <- made]
 
 -- | Walls beside the passes of a toolpath, for each block. The passes of a statement share them.

@@ -6,10 +6,13 @@ module Gcode.Heading
 where
 
 import Base.Decimal qualified as Decimal
+import Base.Name (Name (..))
 import Base.Quantity (Mm (..), times)
 import Base.Region (Located (..))
+import Data.Containers.ListUtils (nubOrdOn)
 import Data.Text (Text)
-import Part.Part (Command (ChangeTool), Cutter (..), CutterKind (..))
+import Part.Part (Cutter)
+import Part.Part qualified as Part
 import Toolpath.Toolpath (Toolpath)
 import Toolpath.Toolpath qualified as Toolpath
 
@@ -34,23 +37,34 @@ data Heading = Heading
 fromToolpath :: Toolpath -> Heading
 fromToolpath path =
   Heading
-    { partName = "",
-      partTitle = "",
-      workOffset = 54,
-      programNumber = Nothing,
-      firstTool = Just 1,
-      toolList =
-        [ (n, cutterText cutter)
-          | Toolpath.Commanding (Located _ (ChangeTool n cutter)) <- Toolpath.blocks path
-        ],
-      safeHeight = Nothing,
-      isSpindleByHand = False
+    { partName = maybe "" (\(Name n) -> n) (Toolpath.partName setup),
+      partTitle = Toolpath.partTitle setup,
+      workOffset = maybe 54 value (Toolpath.workOffset setup),
+      programNumber = value <$> Toolpath.programNumber setup,
+      firstTool,
+      toolList = nubOrdOn fst (first <> changed),
+      safeHeight = value <$> Toolpath.safeHeight setup,
+      isSpindleByHand = or [True | Part.SpindleByHand <- commands]
     }
+  where
+    setup = Toolpath.setup path
+    commands = [value c | Toolpath.Commanding c <- Toolpath.blocks path]
+    firstTool = value <$> Toolpath.firstToolNumber setup
+    first =
+      [ (n, cutterText cutter)
+        | Just n <- [firstTool],
+          Just cutter <- [Toolpath.firstCutter setup]
+      ]
+    changed = [(n, cutterText cutter) | Part.ChangeTool n cutter <- commands]
 
 -- | Description of a tool: its kind and its diameter, or the radius of its nose.
 cutterText :: Cutter -> Text
-cutterText cutter = case kind cutter of
-  MillingCutter -> "mill, diameter " <> diameter
-  _ -> "tool, diameter " <> diameter
+cutterText cutter = case Part.kind cutter of
+  Part.MillingCutter -> "mill, diameter " <> diameter
+  Part.ConeCutter -> "cone, diameter " <> diameter
+  Part.DovetailCutter -> "dovetail, diameter " <> diameter
+  Part.BladeCutter _ -> "blade, diameter " <> diameter
+  Part.DrillingCutter -> "drill, diameter " <> diameter
+  Part.TurningCutter -> "turning tool, nose radius " <> Decimal.mm (Part.cutterRadius cutter)
   where
-    diameter = Decimal.mm (times 2 (cutterRadius cutter))
+    diameter = Decimal.mm (times 2 (Part.cutterRadius cutter))

@@ -52,7 +52,7 @@ spindleErrors machine heading path
       Just (_, Nothing) -> missing "the spindle has no speed at this cut" <$> cutOf block
       Just (_, Just _) -> Nothing
     missing title region =
-      (at region "E0510" title)
+      (at region "E0515" title)
         { label = "this cuts",
           message =
             [machineName machine <> " starts the spindle by the program. A cut without it breaks the tool."],

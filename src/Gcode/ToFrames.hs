@@ -15,7 +15,7 @@ where
 
 import Base.PulseVector (Pulses2 (..), Pulses3 (..))
 import Base.Quantity (Mm (..), Pulses (..))
-import Base.Region (Region (Region))
+import Base.Region (Located (Located), Region (Region))
 import Data.List (foldl')
 import Data.Maybe (fromMaybe, isNothing)
 import Data.Text qualified as Text
@@ -31,6 +31,7 @@ import Geometry.Carrier qualified as Carrier
 import Machine.Machine (Axis (..), Content (..), FeedCode (..), Machine)
 import Machine.Machine qualified as Machine
 import Part.Part (Sense (..))
+import Part.Part qualified as Part
 
 -- | Frames of a file, and all its actions.
 data Reading = Reading
@@ -53,6 +54,8 @@ data Converting = Converting
     isAway :: Bool,
     commanded :: CommandState,
     pending :: Maybe Pending,
+    -- | line of the last start of the spindle for which the file has waited
+    waitedFor :: Maybe Int,
     -- | the latest frame first
     made :: [ReadFrame],
     lost :: Double
@@ -75,6 +78,7 @@ reading machine level first start list =
           isAway = True,
           commanded = CommandState.initial,
           pending = Nothing,
+          waitedFor = Nothing,
           made = [],
           lost = 0
         }
@@ -85,14 +89,28 @@ converted :: Machine -> Maybe Pulses -> Maybe Int -> Converting -> Step -> Conve
 converted machine level first c step = case action step of
   Travels travel -> travelled machine level (withCommands machine first step) c step travel
   Changes _ -> c
-  Dwells _ -> c
-  Stops -> c
-  StopsOnDemand -> c
+  Dwells t
+    | isStart, waitedFor c /= started -> c {waitedFor = started}
+    | otherwise -> event (Part.Dwell t)
+  Stops -> event Part.ProgramStop
+  StopsOnDemand -> event Part.OptionalStop
   Ends ->
     foldl'
       (\c' ws -> addCommands (line step) ws (flushed (line step) c'))
       c
       (Command.finalFrames machine)
+  where
+    -- The first dwell after a start of the spindle waits for the spindle.
+    started = lineOf (Gcode.ModalState.spindle (state step))
+    isStart = case valueOf (Gcode.ModalState.spindle (state step)) of
+      Just (SpindleTurning _) -> True
+      _ -> False
+    event command =
+      added
+        machine
+        step
+        (Command.translated machine (Located (Region 0 0) command))
+        (withCommands machine first step c)
 
 -- | Converts a motion. @switched@ adds the commands that the state of the motion shows.
 travelled ::
@@ -124,9 +142,14 @@ withCommands machine first step c = foldl' add c {commanded = now} groups
   where
     now = stateOf first (state step)
     groups = CommandState.between machine (commanded c) now
-    add c' ws =
-      let (full, pending') = Command.add machine (Region 0 0) ws (pending c')
-       in foldl' (\d p -> addCommands (line step) (given p) d) c' {pending = pending'} full
+    add c' ws = added machine step (Command.Translation ws False [] []) c'
+
+-- | Adds the words of a command.
+added :: Machine -> Step -> Command.Translation -> Converting -> Converting
+added machine step translation c =
+  foldl' (\d p -> addCommands (line step) (given p) d) c {pending = pending'} full
+  where
+    (full, pending') = Command.add machine (Region 0 0) translation (pending c)
 
 -- | State of tool, spindle and coolant. Unknown parts count as off; "Verify.ControlState" finds
 -- them. The tool is Nothing as long as it is the first one.

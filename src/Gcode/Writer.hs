@@ -231,8 +231,7 @@ finishLines Context {machine} =
 
 -- | Word of a command.
 commandText :: Machine -> (CommandName, Int) -> Text
-commandText machine (name, n) =
-  maybe "" address (Machine.wordFor machine (Machine.Command name)) <> Decimal.whole n
+commandText machine (name, n) = scaledText machine (Machine.Command name) (Pulses n)
 
 -- Frames ------------------------------------------------------------------------------------------
 

@@ -78,7 +78,9 @@ toToolpath part = case (Part.start part, Part.operations part) of
 setupOf :: Part -> Setup
 setupOf part =
   Setup
-    { Toolpath.firstCutter = Part.firstCutter part,
+    { Toolpath.partName = Part.name part,
+      Toolpath.partTitle = fromMaybe "" (Part.title part),
+      Toolpath.firstCutter = Part.firstCutter part,
       Toolpath.firstToolNumber = Part.firstToolNumber part,
       Toolpath.workOffset = Part.workOffset part,
       Toolpath.programNumber = Part.programNumber part,

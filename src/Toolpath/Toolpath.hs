@@ -25,11 +25,13 @@ module Toolpath.Toolpath
   )
 where
 
+import Base.Name (Name)
 import Base.Quantity (Mm (..))
 import Base.Region (Located (..), Region)
 import Data.List.NonEmpty (NonEmpty (..))
 import Data.List.NonEmpty qualified as NonEmpty
 import Data.Maybe (isNothing)
+import Data.Text (Text)
 import Geometry.Carrier (Side)
 import Geometry.Segment (Segment)
 import Geometry.Segment qualified as Segment
@@ -50,7 +52,10 @@ data Toolpath = Toolpath
 -- | The settings of the whole program for the control and the operator. Each is absent if the
 -- program does not make it.
 data Setup = Setup
-  { -- | tool in the spindle at the start
+  { -- | name and title of the part; the title may be empty
+    partName :: Maybe Name,
+    partTitle :: Text,
+    -- | tool in the spindle at the start
     firstCutter :: Maybe Cutter,
     -- | number of this tool, from 1 to 99
     firstToolNumber :: Maybe (Located Int),
@@ -65,7 +70,7 @@ data Setup = Setup
 
 -- | The setup of a program without settings.
 noSetup :: Setup
-noSetup = Setup Nothing Nothing Nothing Nothing Nothing
+noSetup = Setup Nothing "" Nothing Nothing Nothing Nothing Nothing
 
 -- | The moves of one statement, or of one of its passes.
 data Block
