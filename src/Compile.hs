@@ -238,13 +238,13 @@ makeFiles form verification path machine =
 -- | Proof of files that the compiler has written. @onPath@ is the proof of their frames.
 proveFiles :: Machine -> ProgramForm -> Heading -> FrameProgram -> Proof -> [Text] -> Result Report Report Proof
 proveFiles machine form heading program onPath texts =
-  case FromGcode.readTexts machine form heading (Frame.start program) texts of
+  case FromGcode.readTexts machine form heading program texts of
     Left fault -> failed (inFile (FaultReport.toReport (\_ _ -> Region 0 0) fault))
     Right reading
       | FromGcode.framesRead reading /= map Frame.frame (Frame.plannedFrames program) ->
         failed (Tape.toReport (Tape.Damage 1 Nothing Nothing Tape.Misread))
       | otherwise ->
-        let proof = FromGcode.judged machine form heading reading onPath
+        let proof = FromGcode.judged machine form heading program reading onPath
          in failing (map inFile (gcodeReports machine form (const (Region 0 0)) proof)) proof
   where
     inFile r = r {place = InFile, others = []}
@@ -352,7 +352,13 @@ fromAnyStart part Compiled {machine, toolpath, punched} =
 -- the control in them.
 proveGcode :: ProgramForm -> Maybe Part -> Compiled -> Reading -> Proof
 proveGcode form part compiled@Compiled {machine, toolpath} reading =
-  FromGcode.judged machine form (Heading.fromToolpath toolpath) reading (fromAnyStart part compiled frames)
+  FromGcode.judged
+    machine
+    form
+    (Heading.fromToolpath toolpath)
+    (program (punched compiled))
+    reading
+    (fromAnyStart part compiled frames)
   where
     frames = FromGcode.framesRead reading
 

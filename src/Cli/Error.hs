@@ -67,6 +67,9 @@ data Error
     SwitchMissing Int Int
   | -- | The controller stops before a frame under cutter compensation: its number, and the reason.
     CompensationFails Int Text
+  | -- | Another number of files than the program has: the count of files on the command line, and
+    -- the names of the files that belong to the program.
+    WrongFileCount Int [Text]
   | -- | No report has the code that the user asks about. The arguments: this code as the user wrote
     -- it, and similar codes that exist, for the hint.
     UnknownCode Text [Text]
@@ -144,6 +147,23 @@ toReport err = case err of
       { hints =
           [ "Leave --pulses and --speed out, or take a machine whose pulses are known: "
               <> Text.intercalate ", " pulseMachines
+              <> "."
+          ]
+      }
+  WrongFileCount count names ->
+    ( wrong
+        "E0818"
+        InFile
+        ( "the program has "
+            <> Decimal.whole (length names)
+            <> (if length names == 1 then " file" else " files")
+            <> ", and the command line names "
+            <> Decimal.whole count
+        )
+    )
+      { hints =
+          [ "Name all its files in the order in which they are run: "
+              <> Text.intercalate ", " names
               <> "."
           ]
       }

@@ -13,7 +13,7 @@ import Compile (Compiled, Punched (..))
 import Compile qualified
 import Data.Text (Text)
 import Data.Text qualified as Text
-import Frame.Frame qualified as Frame
+import Gcode.Block (Fault (..))
 import Gcode.FaultReport qualified as FaultReport
 import Gcode.Heading qualified as Heading
 import Gcode.ToFrames (Reading)
@@ -27,28 +27,52 @@ import Prelude hiding (read)
 -- | A file: its name and its text.
 data GcodeFile = GcodeFile {fileName :: Text, fileText :: Text}
 
--- | Reads a file that should be the one of a program. The report of a line that is not understood
+-- | Reads the files that should be those of a program. The report of a line that is not understood
 -- comes with its source.
-read :: ProgramForm -> Compiled -> GcodeFile -> Either (Source, Report) Reading
-read form compiled file = case FromGcode.readTexts machine form heading start [fileText file] of
-  Left fault -> Left (source, FaultReport.toReport (regionFrom (fileText file) 0) fault)
-  Right reading -> Right reading
+read :: ProgramForm -> Compiled -> [GcodeFile] -> Either (Source, Report) Reading
+read form compiled gcode =
+  case FromGcode.readTexts machine form heading planned (map fileText gcode) of
+    Left fault@(Fault n _ _) ->
+      let (_, file, before) = fileOfLine gcode n
+          regionOf k = regionFrom (fileText file) 0 (k - before)
+       in Left
+            ( Region.fromText (fileName file) (fileText file),
+              FaultReport.toReport regionOf fault
+            )
+    Right reading -> Right reading
   where
     machine = Compile.machine compiled
     heading = Heading.fromToolpath (Compile.toolpath compiled)
-    start = Frame.start (program (Compile.punched compiled))
-    source = Region.fromText (fileName file) (fileText file)
+    planned = program (Compile.punched compiled)
 
--- | Reports of the proof of a file, with the source that has the program and the file.
-reports :: ProgramForm -> Compiled -> GcodeFile -> Source -> Reading -> Proof -> (Source, [Report])
-reports form compiled file source reading proof =
-  ( Region.addFile (fileName file) (fileText file) source,
+-- | File that contains a line, which is counted over all files: its index from 0, the file, and the
+-- count of lines before it.
+fileOfLine :: [GcodeFile] -> Int -> (Int, GcodeFile, Int)
+fileOfLine gcode n = go 0 0 gcode
+  where
+    go k before list = case list of
+      [] -> (k, GcodeFile "" "", before)
+      [file] -> (k, file, before)
+      file : more
+        | n <= before + lineCount file -> (k, file, before)
+        | otherwise -> go (k + 1) (before + lineCount file) more
+    lineCount = length . Text.lines . fileText
+
+-- | Reports of the proof of files, with the source that has the program and the files.
+reports ::
+  ProgramForm -> Compiled -> [GcodeFile] -> Source -> Reading -> Proof -> (Source, [Report])
+reports form compiled gcode source reading proof =
+  ( foldl (\s f -> Region.addFile (fileName f) (fileText f) s) source gcode,
     zipWith withLine places (Compile.gcodeReports (Compile.machine compiled) form lineRegion proof)
   )
   where
-    base = Region.nextOffset source
-    lineRegion n = regionFrom (fileText file) base n 1
-    places = map (const Nothing) (Proof.controlFindings proof) <> map Proof.frameOf (Proof.findings proof)
+    bases = scanl (\at f -> at + Text.length (fileText f) + 1) (Region.nextOffset source) gcode
+    lineRegion n =
+      let (index, file, before) = fileOfLine gcode n
+       in regionFrom (fileText file) (bases !! index) (n - before) 1
+    places =
+      map (const Nothing) (Proof.controlFindings proof)
+        <> map Proof.frameOf (Proof.findings proof)
     withLine place report = case place of
       Just n
         | Just k <- FromGcode.lineOfFrame reading n ->

@@ -37,9 +37,10 @@ data Subcommand
   = Compile CompileOptions
   | -- | names or files of machines, or none for the machine that each program names; the programs
     Check [Text] (NonEmpty FilePath)
-  | -- | the program, the machine, the file of the tape; without a file, the tape that the compiler
-    -- makes of the program is proven; true to prove the pulses of the controller, too
-    Verify FilePath (Maybe Text) (Maybe FilePath) Bool
+  | -- | the program, the machine, the files of the tape, one for each tool if the control cannot
+    -- change tools; without a file, the tape that the compiler makes of the program is proven; true
+    -- to prove the pulses of the controller, too
+    Verify FilePath (Maybe Text) [FilePath] Bool
   | -- | the program, the machine, true for JSON lines instead of a table
     Frames FilePath (Maybe Text) Bool
   | -- | the program, the machine
@@ -148,7 +149,7 @@ commands =
         "verify"
         "Prove a tape against its program"
         "partc verify flange.part flange.tape"
-        (Verify <$> program <*> optional target <*> optional tape <*> pulsesFlag),
+        (Verify <$> program <*> optional target <*> many tape <*> pulsesFlag),
       entry
         "frames"
         "List the frames of a program"

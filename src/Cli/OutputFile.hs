@@ -2,18 +2,22 @@
 -- The sources are the files of which it is made: the program, the programs and tables that it
 -- imports, and its machine descriptions.
 module Cli.OutputFile
-  ( writeTapes,
+  ( TapeOutput (..),
+    writeTapes,
+    tapeNames,
+    numbered,
     writeText,
   )
 where
 
+import Base.Decimal qualified as Decimal
 import Cli.Error (Error (..))
 import Cli.Outcome (exitAfterWriting, failWith, printResult)
 import Cli.Output (Exit (..), Reporter)
 import Cli.Output qualified as Output
 import Control.Monad (filterM)
 import Data.ByteString (ByteString)
-import Data.Maybe (listToMaybe)
+import Data.Maybe (listToMaybe, maybeToList)
 import Data.Text (Text)
 import Data.Text qualified as Text
 import Data.Text.Encoding qualified as Encoding
@@ -30,6 +34,25 @@ import System.FilePath
   )
 import Tape.Tape (Tape (..))
 
+-- | A tape to write: its machine, the word for its tool if each tool has a file of its own, and its
+-- rows.
+data TapeOutput = TapeOutput {machine :: Machine, toolWord :: Maybe Text, content :: Tape}
+
+-- | Words for the files of tools: @T@ with the number. A tool that comes again has the number of its
+-- turn behind it, as in @T1-2@. Nothing for a file of all tools.
+numbered :: [Maybe Int] -> [Maybe Text]
+numbered tools = zipWith word [0 ..] tools
+  where
+    word k tool = case tool of
+      Nothing -> Nothing
+      Just n -> Just ("T" <> Decimal.whole n <> turn (length (filter (== tool) (take k tools))))
+    turn before = if before == 0 then "" else "-" <> Decimal.whole (before + 1)
+
+-- | Names of the files of a program, from its path, for the tools of these files.
+tapeNames :: FilePath -> Machine -> [Maybe Int] -> [FilePath]
+tapeNames file machine tools =
+  [standardName file (TapeOutput machine word (Tape "")) | word <- numbered tools]
+
 -- | Writes the tapes of a program. @name@ is the program's name in reports, @file@ its path.
 -- @sources@ are the files that must not be replaced. @wanted@ is the output path of the command
 -- line, if there is one. Nothing is written if two tapes have the same destination.
@@ -39,23 +62,23 @@ writeTapes ::
   FilePath ->
   [FilePath] ->
   Maybe FilePath ->
-  [(Machine, Tape)] ->
+  [TapeOutput] ->
   IO Exit
 writeTapes reporter name file sources wanted tapes = do
-  destinations <- traverse (destination file wanted (length tapes) . fst) tapes
+  destinations <- traverse (destination file wanted (length tapes)) tapes
   clash <- overwritten sources destinations
   case (clash, firstRepeated destinations) of
     (Just path, _) -> failWith reporter name (OverwritesProgram (Text.pack path))
     (Nothing, Just path) -> failWith reporter name (OneForSeveral (Text.pack path))
-    (Nothing, Nothing) -> writeAll reporter (zip destinations [bytes | (_, Tape bytes) <- tapes])
+    (Nothing, Nothing) -> writeAll reporter (zip destinations [bytes | TapeOutput {content = Tape bytes} <- tapes])
 
--- | The path of the tape for a machine; @-@ is standard output. @file@ is the path of the program,
+-- | The path of a tape; @-@ is standard output. @file@ is the path of the program,
 -- @wanted@ the output path of the command line, and @count@ the count of all tapes. Without an
 -- output path the tape is put into the program's folder. If there are several tapes, the output
 -- path is the folder into which they are put. For one tape it is a folder if it exists as one or
 -- ends with a slash; otherwise it is the path of the tape itself.
-destination :: FilePath -> Maybe FilePath -> Int -> Machine -> IO FilePath
-destination file wanted count machine = case wanted of
+destination :: FilePath -> Maybe FilePath -> Int -> TapeOutput -> IO FilePath
+destination file wanted count output = case wanted of
   Nothing -> pure (if file == "-" then standard else replaceDirectory standard folder)
   Just "-" -> pure "-"
   Just path -> do
@@ -66,11 +89,17 @@ destination file wanted count machine = case wanted of
           else path
       )
   where
+    standard = standardName file output
+    folder = take (length file - length (takeFileName file)) file
+
+-- | The name of the file of a tape, without a folder: that of the program, the machine, the tool.
+standardName :: FilePath -> TapeOutput -> FilePath
+standardName file TapeOutput {machine, toolWord} =
+  foldl (<.>) base (map Text.unpack ([machineName] <> maybeToList toolWord <> [suffix]))
+  where
     MachineName machineName = Machine.name machine
     base = if file == "-" then "stdin" else dropExtension (takeFileName file)
-    standard =
-      base <.> Text.unpack machineName <.> Text.unpack (Machine.suffix (Machine.medium machine))
-    folder = take (length file - length (takeFileName file)) file
+    suffix = Machine.suffix (Machine.medium machine)
 
 -- | The first element that occurs again later in the list; nothing if all elements differ.
 firstRepeated :: Eq a => [a] -> Maybe a

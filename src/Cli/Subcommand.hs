@@ -37,6 +37,7 @@ import Cli.Outcome (evaluated, failWith, failWithReport, printResult, whenSound)
 import Cli.Output (Exit (..), Reporter)
 import Cli.Output qualified as Output
 import Cli.OutputFile (writeTapes, writeText)
+import Cli.OutputFile qualified as OutputFile
 import Cli.Progress qualified as Progress
 import Cli.ProofTable qualified as ProofTable
 import Cli.PulseProofTable qualified as PulseProofTable
@@ -50,10 +51,12 @@ import Data.List.NonEmpty qualified as NonEmpty
 import Data.Maybe (isJust, maybeToList)
 import Data.Text (Text)
 import Data.Text qualified as Text
+import Data.Text.Encoding qualified as Encoding
 import Draw.Plot qualified as Plot
 import Draw.TapeRows qualified as TapeRows
 import Frame.Frame (Frame)
 import Frame.Frame qualified as Frame
+import Gcode.Writer qualified as Writer
 import Machine.BuiltIn qualified as BuiltIn
 import Machine.Machine (Machine, MachineName (..), ProgramForm)
 import Machine.Machine qualified as Machine
@@ -123,8 +126,13 @@ compile reporter options = withInput reporter (file options) (targets options) $
       (file options)
       (ownFiles (file options) kept)
       (place options)
-      [(machine, tape) | Compiled {Compile.machine, Compile.punched = Punched {tape}} <- tapes]
+      (concatMap tapeFilesOf tapes)
   where
+    tapeFilesOf Compiled {Compile.machine, Compile.punched = Punched {tape, files}} = case files of
+      [] -> [OutputFile.TapeOutput machine Nothing tape]
+      _ -> zipWith (outputFile machine) (OutputFile.numbered (map Writer.toolOfFile files)) files
+    outputFile machine part written =
+      OutputFile.TapeOutput machine part (Tape (Encoding.encodeUtf8 (Writer.fileText written)))
     chosen = if unproven options then Unverified else Verified
     withWarning tapes =
       tapes <$ Result.warned [Cli.warningReport Unproven | unproven options, _ <- tapes]
@@ -143,40 +151,55 @@ check reporter targets file = withInput reporter file targets $ \given ->
 -- | Proves the tape in @tapeFile@ against the program in @file@. Without @tapeFile@ it proves the
 -- tape that the compiler makes of the program. If @withPulses@ is true, it also proves the pulses
 -- of the machine's controller.
-verify :: Reporter -> FilePath -> Maybe Text -> Maybe FilePath -> Bool -> IO Exit
-verify reporter file target tapeFile withPulses =
+verify :: Reporter -> FilePath -> Maybe Text -> [FilePath] -> Bool -> IO Exit
+verify reporter file target tapeFiles withPulses =
   withInput reporter file (maybeToList target) $ \given -> do
-    foreignTape <- traverse readBytes tapeFile
-    settled reporter given (withContents foreignTape (onFirstMachine target given)) $
+    foreignTapes <- traverse readBytes tapeFiles
+    settled reporter given (withContents foreignTapes (onFirstMachine target given)) $
       \(compiled, found) -> case found of
         Left e -> failWith reporter (tapeName given) e
-        Right (rows, _)
-          | not withPulses,
-            Just form <- Machine.programForm (Compile.machine compiled) ->
-            verifyGcode
-              reporter
-              given
-              form
-              (GcodeFile (tapeName given) (TapeDifference.textOf rows))
-              compiled
-        Right (rows, contents) ->
-          withPulseProof given compiled rows $
-            verifyTape reporter given (ForeignTape.TapeFile (tapeName given) rows contents) compiled
+        Right (rows, contents) -> case Machine.programForm (Compile.machine compiled) of
+          _ | not (isCountRight compiled) -> failWith reporter (name given) (wrongCount compiled)
+          Just form
+            | not withPulses ->
+              verifyGcode reporter given form (gcodeFiles given compiled foreignTapes) compiled
+          _ ->
+            withPulseProof given compiled rows $
+              verifyTape
+                reporter
+                given
+                (ForeignTape.TapeFile (tapeName given) rows contents)
+                compiled
   where
-    tapeName given = maybe (name given) displayName tapeFile
+    tapeName given = case tapeFiles of
+      [] -> name given
+      first : _ -> displayName first
+    fileNames = OutputFile.tapeNames file . Compile.machine <*> toolsOfFiles
+    toolsOfFiles = map Writer.toolOfFile . files . Compile.punched
+    wrongCount compiled = WrongFileCount (length tapeFiles) (map Text.pack (fileNames compiled))
+    isCountRight compiled =
+      null tapeFiles || length tapeFiles == max 1 (length (files (Compile.punched compiled)))
+    gcodeFiles given compiled contents = case contents of
+      [] -> [GcodeFile (name given) (Writer.fileText f) | f <- files (Compile.punched compiled)]
+      _ ->
+        [ GcodeFile (displayName path) (TapeDifference.textOf (Tape bytes))
+          | (path, Right bytes) <- zip tapeFiles contents
+        ]
     -- The warnings about the program are left out if the tape cannot be read.
-    withContents foreignTape result = case (foreignTape, found) of
-      (Just _, Just (_, Left _)) -> both {warnings = []}
-      (Just _, Just (_, Right (_, Left _))) -> both {warnings = []}
+    withContents foreignTapes result = case (foreignTapes, found) of
+      (_ : _, Just (_, Left _)) -> both {warnings = []}
+      (_ : _, Just (_, Right (_, Left _))) -> both {warnings = []}
       _ -> both
       where
         both = result {output = found}
         found = contentsOf <$> output result
-        contentsOf compiled =
-          (compiled, withFrames <$> maybe (Right (ownTape compiled)) (fmap Tape) foreignTape)
+        contentsOf compiled = (compiled, withFrames <$> rowsOf compiled)
           where
             withFrames rows = (rows, readTape compiled rows)
-        ownTape = tape . Compile.punched
+        rowsOf compiled = case sequence foreignTapes of
+          Left e -> Left e
+          Right [] -> Right (tape (Compile.punched compiled))
+          Right (first : _) -> Right (Tape first)
     withPulseProof given compiled rows continue
       | not withPulses = continue Nothing
       | otherwise = case Compile.provePulses compiled rows of
@@ -194,18 +217,15 @@ readTape Compiled {Compile.machine, Compile.punched}
   | isJust (Machine.programForm machine) = const (Right [])
   | otherwise = Tape.readExpected machine (Frame.start (program punched)) (framesOf punched)
 
--- | Reads a file of G-code, compares its motions with the part, judges the state of the control, and
--- prints the proof.
-verifyGcode :: Reporter -> Input -> ProgramForm -> GcodeFile -> Compiled -> IO Exit
-verifyGcode reporter given form file compiled = case GcodeFile.read form compiled file of
-  Left (text, fault) ->
-    Failed <$ Output.showReports reporter (GcodeFile.fileName file) text [fault]
+-- | Reads the files of a program for a modern control, compares their motions with the part, judges
+-- the state of the control, and prints the proof.
+verifyGcode :: Reporter -> Input -> ProgramForm -> [GcodeFile] -> Compiled -> IO Exit
+verifyGcode reporter given form gcode compiled = case GcodeFile.read form compiled gcode of
+  Left (text, fault) -> Failed <$ Output.showReports reporter (Region.mainFile text) text [fault]
   Right reading -> do
     let proof = Compile.proveGcode form part compiled reading
-        (texts, wrong) = GcodeFile.reports form compiled file (source given) reading proof
-    Progress.during
-      ("proving " <> GcodeFile.fileName file)
-      (evaluated (Result.failing wrong proof))
+        (texts, wrong) = GcodeFile.reports form compiled gcode (source given) reading proof
+    Progress.during ("proving " <> name given) (evaluated (Result.failing wrong proof))
     exit <- printResult reporter (ProofTable.proof (Compile.machine compiled) proof)
     _ <- Output.showReports reporter (name given) texts wrong
     pure (if null wrong then exit else Disproven)

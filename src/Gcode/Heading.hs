@@ -27,6 +27,8 @@ data Heading = Heading
     firstTool :: Maybe Int,
     -- | the tools in the order of their use, each with its number and a description
     toolList :: [(Int, Text)],
+    -- | numbers of the tools as the program changes them
+    toolOrder :: [Int],
     -- | height in mm that is above everything, in work coordinates
     safeHeight :: Maybe Mm,
     isSpindleByHand :: Bool
@@ -42,6 +44,7 @@ fromToolpath path =
       workOffset = maybe 54 value (Toolpath.workOffset setup),
       programNumber = value <$> Toolpath.programNumber setup,
       firstTool,
+      toolOrder = maybe id (:) firstTool (map fst changed),
       toolList = nubOrdOn fst (first <> changed),
       safeHeight = value <$> Toolpath.safeHeight setup,
       isSpindleByHand = or [True | Part.SpindleByHand <- commands]

@@ -100,10 +100,15 @@ toolErrors :: Machine -> ProgramForm -> Heading -> Toolpath -> [Report]
 toolErrors machine form heading path =
   [ (at (region (start path)) "E0513" "the first tool has no number")
       { message =
-          [machineName machine <> " takes the length of each tool from its tool table, by the number."],
+          [ if ProgramForm.changesTools (dialect form)
+              then
+                machineName machine
+                  <> " takes the length of each tool from its tool table, by the number."
+              else "Each tool has a file of its own, which has the number of the tool in its name."
+          ],
         hints = ["Write the number in the statement ‘tool’, as in ‘tool 1 mill(diameter 8)’."]
       }
-    | ProgramForm.changesTools (dialect form),
+    | ProgramForm.changesTools (dialect form) || not (null (toolOrder heading)),
       isNothing (firstTool heading)
   ]
 

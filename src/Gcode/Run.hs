@@ -77,16 +77,18 @@ data Coordinate
 -- | State between two lines.
 data Running = Running {modal :: ModalState, place :: Place, isEnded :: Bool}
 
--- | Actions of a file in order; a fault for the first line that is not understood.
-run :: ProgramForm -> Text -> Either Fault [Step]
-run form text = do
+-- | Actions of a file in order; a fault for the first line that is not understood. @tool@ is the
+-- number of the tool that the operator has put into the spindle for this file, if there is one.
+run :: ProgramForm -> Maybe Int -> Text -> Either Fault [Step]
+run form tool text = do
   lines' <- blocks text
   when (null lines') (Left (Fault 1 1 NoWords))
   checkLengths form text
   (_, steps) <- foldM next (begin, []) lines'
   pure (concat (reverse steps))
   where
-    begin = Running (initial (dialect form)) (Place Anywhere Anywhere Anywhere) False
+    state0 = initial (dialect form)
+    begin = Running state0 {toolInSpindle = maybe Unset (SetAt 0) tool} (Place Anywhere Anywhere Anywhere) False
     next (now, done) b = do
       (now', steps) <- runBlock form now b
       pure (now', steps : done)

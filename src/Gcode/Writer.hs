@@ -14,7 +14,7 @@ import Base.Decimal qualified as Decimal
 import Base.PulseVector (Pulses2 (..), Pulses3 (..))
 import Base.Quantity (Mm (..), Pulses (..), Seconds (..))
 import Data.Char (isAscii, isPrint)
-import Data.Maybe (fromMaybe, isJust, mapMaybe, maybeToList)
+import Data.Maybe (fromMaybe, isJust, listToMaybe, mapMaybe, maybeToList)
 import Data.Text (Text)
 import Data.Text qualified as Text
 import Frame.Command qualified as Command
@@ -62,40 +62,49 @@ data Writing = Writing
 -- make at corners; Nothing for an exact path.
 write :: Machine -> ProgramForm -> Heading -> Maybe Mm -> FrameProgram -> [ToolFile]
 write machine form heading bound program =
-  [ ToolFile
-      (if ProgramForm.changesTools (dialect form) then Nothing else tool)
-      (Text.unlines (fileLines context tool begin fs))
-    | (tool, begin, fs) <- parts
+  [ ToolFile (if isOneFile then Nothing else toolOf part) (Text.unlines (fileLines context part))
+    | part <- parts
   ]
   where
     context = Context {machine, form, heading, bound}
-    frames =
-      dropEnd (length (Command.finalFrames machine)) (map frame (plannedFrames program))
-    parts
-      | ProgramForm.changesTools (dialect form) =
-        [(firstTool heading, start program, frames)]
-      | otherwise = byTool machine (firstTool heading) (start program) frames
+    isOneFile = ProgramForm.changesTools (dialect form)
+    frames = dropEnd (length (Command.finalFrames machine)) (map frame (plannedFrames program))
+    whole = FilePart (firstTool heading) (start program) False frames
+    parts = if isOneFile then [whole] else byTool machine whole
     dropEnd n xs = take (length xs - n) xs
 
--- | Frames of each tool, with its number and the position before its first frame.
-byTool :: Machine -> Maybe Int -> Pulses3 -> [Frame] -> [(Maybe Int, Pulses3, [Frame])]
-byTool machine tool begin frames = case break isChange frames of
-  (own, []) -> [(tool, begin, own)]
+-- | Frames of one file: the tool that is in the spindle first, the position before the first frame,
+-- and true if the coolant was on before it.
+data FilePart = FilePart
+  { toolOf :: Maybe Int,
+    begins :: Pulses3,
+    isCooled :: Bool,
+    framesOf :: [Frame]
+  }
+
+-- | Parts of a program with one tool each.
+byTool :: Machine -> FilePart -> [FilePart]
+byTool machine part = case break (not . null . changesIn) (framesOf part) of
+  (_, []) -> [part]
   (own, change : more) ->
-    (tool, begin, own) :
+    part {framesOf = own} :
     byTool
       machine
-      (Just (head' (changesIn change)))
-      (begin + sum (map increment own))
-      (withoutChange change : more)
+      FilePart
+        { toolOf = listToMaybe (changesIn change),
+          begins = begins part + sum (map increment own),
+          isCooled = last (isCooled part : coolantIn own),
+          framesOf = withoutChange change : more
+        }
   where
-    isChange f = not (null (changesIn f))
     changesIn f = [n | ToTool n <- actionsOf machine f]
-    head' ns = case ns of
-      n : _ -> n
-      [] -> 0
-    withoutChange f = f {commands = [c | c <- commands f, fst c `notElem` changeNames]}
-    changeNames = map commandName (toolChange (Machine.commandWords machine))
+    coolantIn fs = [isOn | f <- fs, CoolantSwitch isOn <- actionsOf machine f]
+    withoutChange f = f {commands = [c | c <- commands f, fst c `notElem` changeNames f]}
+    changeNames f =
+      [ commandName w
+        | not (null (changesIn f)),
+          w <- toolChange (Machine.commandWords machine)
+      ]
 
 -- | Facts that are the same for all lines.
 data Context = Context
@@ -106,14 +115,14 @@ data Context = Context
   }
 
 -- | Lines of one file.
-fileLines :: Context -> Maybe Int -> Pulses3 -> [Frame] -> [Text]
-fileLines context tool begin frames =
+fileLines :: Context -> FilePart -> [Text]
+fileLines context part =
   [percent | hasPercent]
     <> programLine
-    <> map (commentLine context) (headTexts context tool)
+    <> map (commentLine context) (headTexts context (toolOf part))
     <> modeLines context
     <> retractLines context
-    <> toolLines context tool
+    <> toolLines context (toolOf part)
     <> motions
     <> retractLines context
     <> ["M5" | not (isSpindleByHand (heading context))]
@@ -128,8 +137,17 @@ fileLines context tool begin frames =
         | dialect (form context) == Fanuc,
           n <- maybeToList (programNumber (heading context))
       ]
-    (final, motions) = frameLines context (Writing at True Nothing False False False) rest
-    (at, rest) = landing begin frames
+    (final, motions) = frameLines context now rest
+    (at, rest) = landing (begins part) (framesOf part)
+    now =
+      Writing
+        { at,
+          isAway = True,
+          feedWritten = Nothing,
+          hasCoolant = isCooled part,
+          isCoolantPaused = isCooled part,
+          turns = False
+        }
 
 -- | Position at which the tool comes down first, and the frames from there on: rapid moves straight
 -- up at the beginning are left out, because the tool comes from above.
@@ -303,10 +321,15 @@ actionLine context@Context {machine, form, heading} now action = case action of
     )
   Turning ws ->
     ( now {turns = True},
-      [Text.unwords (map (commandText machine) ws), dwellLine form (spinUp form)]
+      [turnLine, dwellLine form (spinUp form)]
     )
+    where
+      -- A line for Marlin begins with its command.
+      turnLine = Text.unwords ((if dialect form == Marlin then reverse else id) texts)
+      texts = map (commandText machine) ws
   StopSpindle -> (now {turns = False}, ["M5"])
-  CoolantSwitch isOn -> (now {hasCoolant = isOn, isCoolantPaused = False}, [if isOn then "M8" else "M9"])
+  CoolantSwitch isOn ->
+    (now {hasCoolant = isOn, isCoolantPaused = False}, [if isOn then "M8" else "M9"])
   OtherCommand c -> (now, [commandText machine c])
 
 -- | Line that waits for a time.

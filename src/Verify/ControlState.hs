@@ -37,6 +37,8 @@ data StateDemand = StateDemand
     -- | height in picometres from which on the tool is above everything, in work coordinates;
     -- Nothing if only the retract height is
     level :: Maybe Int,
+    -- | height in picometres from which on the motions of the file are not those of the program
+    excursion :: Maybe Int,
     -- | true if the operator switches the spindle
     isByHand :: Bool
   }
@@ -96,7 +98,7 @@ firstOfEach = go Set.empty
 judged :: ProgramForm -> StateDemand -> Step -> [ControlFinding]
 judged form demand step = case action step of
   Travels travel
-    | isCut travel -> readiness <> cutting travel
+    | isCut travel -> unsafeMoves demand step travel <> readiness <> cutting travel
     | isDescent travel -> unsafeMoves demand step travel <> readiness
     | otherwise -> unsafeMoves demand step travel
   _ -> []
@@ -163,7 +165,8 @@ cutState _ demand step travel =
 -- and y move only at the retract height.
 unsafeMoves :: StateDemand -> Step -> Travel -> [ControlFinding]
 unsafeMoves demand step travel
-  | isKnown (from travel) && isKnown (to travel) = []
+  | isKnown (from travel) && isKnown (to travel) =
+    [bad UnsafeMove | isOutside (from travel) /= isOutside (to travel), not isAloneZ]
   | isAloneZ = [bad UnsafeDescent | comesDown && not (hasPlane (to travel))]
   | isAbove (placeZ (from travel)) && placeZ (from travel) == placeZ (to travel) = []
   | otherwise = [bad UnsafeMove]
@@ -181,6 +184,10 @@ unsafeMoves demand step travel
       At h -> maybe False (h >=) (level demand)
       Anywhere -> False
     isKnown p = hasPlane p && isAt (placeZ p)
+    isOutside p = case placeZ p of
+      At h -> maybe False (h >=) (excursion demand)
+      Retracted -> True
+      Anywhere -> False
     isAt c = case c of
       At _ -> True
       Retracted -> False

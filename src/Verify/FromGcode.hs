@@ -9,14 +9,15 @@ module Verify.FromGcode
   )
 where
 
-import Base.PulseVector (Pulses3)
+import Base.PulseVector (Pulses3 (..))
 import Base.Quantity (Mm (..), Pulses (..), minus, plus)
 import Base.Region (Located (..))
 import Data.List (foldl')
 import Data.Maybe (mapMaybe)
 import Data.Text (Text)
 import Data.Text qualified as Text
-import Frame.Frame (Frame)
+import Frame.Frame (Frame (increment), FrameProgram, PlannedFrame (frame))
+import Frame.Frame qualified as Frame
 import Gcode.Block (Fault (..))
 import Gcode.Heading (Heading (..))
 import Gcode.ModalState (Plane (..))
@@ -27,29 +28,57 @@ import Gcode.ToFrames qualified as ToFrames
 import Machine.Machine (Machine, ProgramForm (..))
 import Machine.Machine qualified as Machine
 import Machine.ProgramForm (Retract (..))
+import Machine.ProgramForm qualified as ProgramForm
 import Verify.ControlState (StateDemand (..))
 import Verify.ControlState qualified as ControlState
-import Verify.Proof (ContourProof (..), Finding (LeavesPath), Proof (..), Witness (..))
+import Verify.Proof (ContourProof (..), Finding (LeavesPath), Proof (..), Witness (amount))
 
--- | Reads the files of a program. Lines are counted over all files together. @start@ is the
--- position of the program before its first frame, in pulses.
-readTexts :: Machine -> ProgramForm -> Heading -> Pulses3 -> [Text] -> Either Fault Reading
-readTexts machine form heading start texts =
-  ToFrames.reading machine (levelOf form heading machine) (firstTool heading) start . concat
-    <$> traverse ofFile (zip (scanl (+) 0 (map (length . Text.lines) texts)) texts)
+-- | Reads the files of a program. Lines are counted over all files together. @program@ has the
+-- planned frames.
+readTexts :: Machine -> ProgramForm -> Heading -> FrameProgram -> [Text] -> Either Fault Reading
+readTexts machine form heading program texts =
+  ToFrames.reading
+    machine
+    (excursionOf machine form heading program)
+    (firstTool heading)
+    (Frame.start program)
+    . concat
+    <$> traverse ofFile (zip3 [1 ..] firstLines texts)
   where
-    ofFile (before, text) = case Run.run form text of
+    firstLines = scanl (+) 0 (map (length . Text.lines) texts)
+    ofFile (k, before, text) = case Run.run form (toolOf k) text of
       Left (Fault n column reason) -> Left (Fault (n + before) column reason)
-      Right steps -> Right [s {line = line s + before} | s <- steps]
+      Right steps ->
+        Right
+          [ s {line = line s + before}
+            | s <- steps,
+              k == length texts || Run.action s /= Run.Ends
+          ]
+    toolOf k
+      | ProgramForm.changesTools (dialect form) = Nothing
+      | otherwise = case drop (k - 1) (toolOrder heading) of
+        n : _ -> Just n
+        [] -> Nothing
 
 -- | Height in pulses from which on the tool is above everything; Nothing if no height in work
 -- coordinates is.
-levelOf :: ProgramForm -> Heading -> Machine -> Maybe Pulses
-levelOf form heading machine = case (retract form, safeHeight heading) of
+levelOf :: Machine -> ProgramForm -> Heading -> Maybe Pulses
+levelOf machine form heading = case (retract form, safeHeight heading) of
   (SafeHeight, Just (Mm z)) -> Just (Pulses (ceiling (z / resolution - 1.0e-6)))
   _ -> Nothing
   where
     Mm resolution = Machine.resolutionOf machine Machine.Z
+
+-- | Height in pulses from which on a motion is not one of the program: the height above everything,
+-- or one pulse more if the program itself moves there.
+excursionOf :: Machine -> ProgramForm -> Heading -> FrameProgram -> Maybe Pulses
+excursionOf machine form heading program = beyond <$> levelOf machine form heading
+  where
+    beyond z = if highest >= z then highest + 1 else z
+    highest = foldl' max (height (Frame.start program)) (map height positions)
+    positions =
+      scanl (+) (Frame.start program) (map (increment . frame) (Frame.plannedFrames program))
+    height (Pulses3 _ _ z) = z
 
 -- | Frames that were read.
 framesRead :: Reading -> [Frame]
@@ -62,17 +91,18 @@ lineOfFrame reading n = case drop (n - 1) (readFrames reading) of
   _ -> Nothing
 
 -- | State of the control that a program asks for.
-demandOf :: Machine -> ProgramForm -> Heading -> StateDemand
-demandOf machine form heading =
+demandOf :: Machine -> ProgramForm -> Heading -> FrameProgram -> StateDemand
+demandOf machine form heading program =
   StateDemand
     { offset = workOffset heading,
       cuttingPlane = PlaneXY,
-      level = (\(Pulses n) -> n * pulse) <$> levelOf form heading machine,
+      level = inPicometres <$> levelOf machine form heading,
+      excursion = inPicometres <$> excursionOf machine form heading program,
       isByHand = isSpindleByHand heading
     }
   where
+    inPicometres (Pulses n) = n * round (resolution * 1.0e9)
     Mm resolution = Machine.resolutionOf machine Machine.Z
-    pulse = round (resolution * 1.0e9)
 
 -- | Largest deviation that a control may make at corners: what the deviations of all contours leave
 -- of the tolerance, rounded down to 0.001 mm. Nothing if nothing is left, or without contours.
@@ -92,12 +122,12 @@ blendingBound machine proof = case mapMaybe left (contourProofs proof) of
 
 -- | Judges the state of the control in all actions of a file. @proof@ is that of the path. What the
 -- control may leave the path by is added to all deviations.
-judged :: Machine -> ProgramForm -> Heading -> Reading -> Proof -> Proof
-judged machine form heading reading proof =
+judged :: Machine -> ProgramForm -> Heading -> FrameProgram -> Reading -> Proof -> Proof
+judged machine form heading program reading proof =
   proof
     { contourProofs = map farther (contourProofs proof),
       findings = findings proof <> mapMaybe tooFar (contourProofs proof),
-      controlFindings = ControlState.findings form (demandOf machine form heading) (steps reading)
+      controlFindings = ControlState.findings form (demandOf machine form heading program) (steps reading)
     }
   where
     p = plus (ControlState.largestBlending (steps reading)) (offGrid reading)
