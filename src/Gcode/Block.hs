@@ -88,11 +88,12 @@ data FaultReason
     BehindEnd
   deriving stock (Eq, Show)
 
--- | Lines of a file; a fault for the first line that cannot be divided into words. A line that
+-- | Lines of a file, numbered from @first@ on; a fault for the first line that cannot be divided into words. A line that
 -- consists of a percent sign begins the program; a second one ends it, and what follows is not
 -- read.
-blocks :: Text -> Either Fault [Block]
-blocks file = concat <$> traverse block (upToEnd False (zip [1 ..] (map bare (Text.lines file))))
+blocks :: Int -> Text -> Either Fault [Block]
+blocks first file =
+  concat <$> traverse block (upToEnd False (zip [first ..] (map bare (Text.lines file))))
   where
     bare = Text.dropWhileEnd (== '\r')
     upToEnd begun list = case list of

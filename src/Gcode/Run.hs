@@ -79,11 +79,12 @@ data Running = Running {modal :: ModalState, place :: Place, isEnded :: Bool}
 
 -- | Actions of a file in order; a fault for the first line that is not understood. @tool@ is the
 -- number of the tool that the operator has put into the spindle for this file, if there is one.
-run :: ProgramForm -> Maybe Int -> Text -> Either Fault [Step]
-run form tool text = do
-  lines' <- blocks text
-  when (null lines') (Left (Fault 1 1 NoWords))
-  checkLengths form text
+-- Lines are numbered from @first@ on.
+run :: ProgramForm -> Maybe Int -> Int -> Text -> Either Fault [Step]
+run form tool first text = do
+  lines' <- blocks first text
+  when (null lines') (Left (Fault first 1 NoWords))
+  checkLengths form first text
   (_, steps) <- foldM next (begin, []) lines'
   pure (concat (reverse steps))
   where
@@ -94,8 +95,8 @@ run form tool text = do
       pure (now', steps : done)
 
 -- | Refuses lines that are longer than the control reads.
-checkLengths :: ProgramForm -> Text -> Either Fault ()
-checkLengths form text = case filter (isTooLong . snd) (zip [1 ..] (Text.lines text)) of
+checkLengths :: ProgramForm -> Int -> Text -> Either Fault ()
+checkLengths form first text = case filter (isTooLong . snd) (zip [first ..] (Text.lines text)) of
   (n, _) : _ -> Left (Fault n (mostCharacters form + 1) (LineTooLong (mostCharacters form)))
   [] -> Right ()
   where

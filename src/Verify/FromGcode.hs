@@ -18,10 +18,9 @@ import Data.Text (Text)
 import Data.Text qualified as Text
 import Frame.Frame (Frame (increment), FrameProgram, PlannedFrame (frame))
 import Frame.Frame qualified as Frame
-import Gcode.Block (Fault (..))
+import Gcode.Block (Fault)
 import Gcode.Heading (Heading (..))
 import Gcode.ModalState (Plane (..))
-import Gcode.Run (Step (..))
 import Gcode.Run qualified as Run
 import Gcode.ToFrames (ReadFrame (..), Reading (..))
 import Gcode.ToFrames qualified as ToFrames
@@ -45,15 +44,10 @@ readTexts machine form heading program texts =
     . concat
     <$> traverse ofFile (zip3 [1 ..] firstLines texts)
   where
-    firstLines = scanl (+) 0 (map (length . Text.lines) texts)
-    ofFile (k, before, text) = case Run.run form (toolOf k) text of
-      Left (Fault n column reason) -> Left (Fault (n + before) column reason)
-      Right steps ->
-        Right
-          [ s {line = line s + before}
-            | s <- steps,
-              k == length texts || Run.action s /= Run.Ends
-          ]
+    firstLines = scanl (+) 1 (map (length . Text.lines) texts)
+    ofFile (k, first, text) =
+      filter (\s -> k == length texts || Run.action s /= Run.Ends)
+        <$> Run.run form (toolOf k) first text
     toolOf k
       | ProgramForm.changesTools (dialect form) = Nothing
       | otherwise = case drop (k - 1) (toolOrder heading) of
