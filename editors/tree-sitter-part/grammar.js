@@ -71,7 +71,7 @@ module.exports = grammar({
     part: $ => seq('part', field('name', $.name), optional(field('title', $.text))),
     machine: $ => seq('machine', field('name', choice($.machine_name, $.text))),
     import: $ => seq('import', field('file', $.text)),
-    tool: $ => seq('tool', optional($._expression), $._cutter),
+    tool: $ => seq('tool', optional(choice($.number, $.name)), $._cutter),
     feed: $ => seq('feed', $._expression),
     tolerance: $ => seq(
       'tolerance',

@@ -133,12 +133,17 @@ statementForms =
                  <*> Parsec.option [] otherwise'
            )
 
--- | The first tool after its keyword: a cutter, with a number before it if the tool has one.
+-- | The first tool after its keyword: a cutter, with a number or a name before it if the tool has a
+-- number. A name is the number only if another word follows it; otherwise it is a wrong cutter.
 firstTool :: Parser Statement_
-firstTool =
-  onSameLine "a cutter" $
-    (Tool Nothing <$> cutter)
-      <|> (Tool . Just <$> Parsec.hidden expr <*> onSameLine "a cutter" cutter)
+firstTool = onSameLine "a cutter" $ do
+  next <- remaining
+  case map shape (take 2 next) of
+    Number _ _ : _ -> numbered number
+    [Word word, Word _] | not (Keyword.isReserved word) -> numbered variableOrCall
+    _ -> Tool Nothing <$> cutter
+  where
+    numbered first = Tool . Just <$> first <*> onSameLine "a cutter" cutter
 
 -- | A cutter: @mill(diameter 20 mm)@, @drill(…)@, @turn(…)@, @cone(…)@, @blade(…)@.
 cutter :: Parser Cutter

@@ -109,7 +109,7 @@ statementForms =
   [ ("part", "part bracket \"Bracket 12 mm\""),
     ("machine", "machine iso6983"),
     ("import", "import \"ear.part\""),
-    ("tool", "tool mill(diameter 12 mm), or with a number tool 1 mill(diameter 12 mm)"),
+    ("tool", "tool mill(diameter 12 mm)"),
     ("feed", "feed 60 mm/min"),
     ("tolerance", "tolerance 0.02 mm, or tolerance inside 0.01 outside 0.02"),
     ("clearance", "clearance 5 mm"),

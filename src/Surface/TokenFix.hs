@@ -192,7 +192,13 @@ trailingFixes region token around = case settingOfMotion token around of
   Just _ -> []
   Nothing ->
     firstFixes
-      [partFixes token around, pointBrackets, newLines, signFixes region token around, repairs around, others]
+      [ partFixes token around,
+        pointBrackets,
+        newLines,
+        signFixes region token around,
+        repairs around,
+        others
+      ]
   where
     newLines = case token of
       Word word

@@ -147,7 +147,7 @@ statement n = at (frequency ([(1, s) | s <- simple] <> [(3, s) | n > 0, s <- dee
       [ Part <$> at name <*> maybe' (at title),
         Machine <$> at (oneof [Named <$> machine, Described <$> title]),
         Import <$> at title,
-        Tool <$> maybe' (expr n) <*> cutter n,
+        Tool <$> maybe' toolNumber <*> cutter n,
         Feed <$> expr n,
         Tolerance <$> oneof [Within <$> expr n, Between <$> expr n <*> expr n],
         Clearance <$> expr n,
@@ -199,6 +199,7 @@ statement n = at (frequency ([(1, s) | s <- simple] <> [(3, s) | n > 0, s <- dee
         With <$> expr n <*> inside
       ]
     inside = some' 3 (statement (n - 1))
+    toolNumber = at (oneof [flip Literal Nothing <$> number, Variable <$> name])
     cipher =
       Cipher <$> at (number `suchThat` (not . Text.any (== '.') . digits)) <*> nonEmpty 3 (expr n)
     joggle = Joggle <$> expr n <*> expr n <*> expr n <*> expr n
