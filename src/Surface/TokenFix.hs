@@ -192,14 +192,9 @@ trailingFixes region token around = case settingOfMotion token around of
   Just _ -> []
   Nothing ->
     firstFixes
-      [ partFixes token around,
-        pointBrackets,
-        newLines,
-        signFixes region token around,
-        repairs around,
-        others
-      ]
+      [partFixes token around, pointBrackets, newLines, signs, repairs around, others]
   where
+    signs = signFixes region token around
     newLines = case token of
       Word word
         | word `elem` (Keyword.statements <> Keyword.softStatements <> Keyword.blocks) ->
