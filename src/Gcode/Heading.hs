@@ -2,6 +2,8 @@
 module Gcode.Heading
   ( Heading (..),
     fromToolpath,
+    clearances,
+    highestClearance,
   )
 where
 
@@ -31,6 +33,8 @@ data Heading = Heading
     toolOrder :: [Int],
     -- | height in mm that is above everything, in work coordinates
     safeHeight :: Maybe Mm,
+    -- | height in mm from which on rapid moves pass over everything
+    freeHeight :: Mm,
     isSpindleByHand :: Bool
   }
   deriving stock (Eq, Show)
@@ -47,6 +51,7 @@ fromToolpath path =
       toolOrder = maybe id (:) firstTool (map fst changed),
       toolList = nubOrdOn fst (first <> changed),
       safeHeight = value <$> Toolpath.safeHeight setup,
+      freeHeight = highestClearance path,
       isSpindleByHand = or [True | Part.SpindleByHand <- commands]
     }
   where
@@ -59,6 +64,24 @@ fromToolpath path =
           Just cutter <- [Toolpath.firstCutter setup]
       ]
     changed = [(n, cutterText cutter) | Part.ChangeTool n cutter <- commands]
+
+-- | Clearance heights of the machining statements.
+clearances :: Toolpath -> [Mm]
+clearances = concatMap heightsOf . Toolpath.blocks
+  where
+    heightsOf block = case block of
+      Toolpath.Cutting {Toolpath.job = Located _ job} -> milling job
+      Toolpath.Clearing {Toolpath.pocket = Located _ p} -> milling (Part.wall p)
+      Toolpath.Holing (Located _ d) _ -> [Part.travelHeight d]
+      Toolpath.Travelling {} -> []
+      Toolpath.Commanding _ -> []
+    milling job = maybe [] pure (Part.clearance job)
+
+-- | Highest clearance height; infinite if no machining statement has one.
+highestClearance :: Toolpath -> Mm
+highestClearance path = case clearances path of
+  [] -> Mm (1 / 0)
+  heights -> maximum heights
 
 -- | Description of a tool: its kind and its diameter, or the radius of its nose.
 cutterText :: Cutter -> Text

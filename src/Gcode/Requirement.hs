@@ -7,7 +7,6 @@ where
 
 import Base.Decimal qualified as Decimal
 import Base.PulseVector (Pulses3)
-import Base.Quantity (Mm (..))
 import Base.Region (Located (..), Region)
 import Data.List (find, mapAccumL)
 import Data.Maybe (isNothing, mapMaybe)
@@ -17,10 +16,13 @@ import Frame.CommandState qualified as CommandState
 import Frame.Frame (FrameProgram (FrameProgram), PlannedFrame (frame))
 import Frame.Frame qualified as Frame
 import Gcode.Heading (Heading (..))
+import Gcode.Heading qualified as Heading
 import Gcode.Writer qualified as Writer
+import Geometry.Segment qualified as Segment
+import Geometry.Vec qualified as Vec
 import Machine.Machine (Machine, MachineName (..), ProgramForm (..))
 import Machine.Machine qualified as Machine
-import Machine.ProgramForm (Retract (..))
+import Machine.ProgramForm (RapidPath (..), Retract (..))
 import Machine.ProgramForm qualified as ProgramForm
 import Part.Part qualified as Part
 import Report.Report (Report (hints, label, message), at)
@@ -35,6 +37,7 @@ refusals machine form heading path program =
     <> toolErrors machine form heading path
     <> safeErrors machine form heading path
     <> lowStart machine path program
+    <> [boxError machine region | BoxPath <- [rapidPath form], region <- take 1 (boxMoves path)]
 
 machineName :: Machine -> Text
 machineName machine = let MachineName n = Machine.name machine in n
@@ -129,7 +132,7 @@ safeErrors machine form heading path =
 
 -- | Error of a program at whose start the tool would come down below the clearance height.
 lowStart :: Machine -> Toolpath -> FrameProgram -> [Report]
-lowStart machine path program = case clearances (blocks path) of
+lowStart machine path program = case Heading.clearances path of
   heights@(_ : _)
     | down < maximum heights ->
       [ (at (region (start path)) "E0512" "the program begins below its clearance height")
@@ -146,18 +149,41 @@ lowStart machine path program = case clearances (blocks path) of
   where
     down = Frame.height machine (landingOf program)
 
+-- | Error of a rapid move whose axes arrive one after the other, where only the straight line is
+-- free.
+boxError :: Machine -> Region -> Report
+boxError machine asked =
+  (at asked "E0516" "a rapid move whose axes may arrive one after the other")
+    { label = "this move",
+      message =
+        [ machineName machine
+            <> " does not move along a straight line in rapid. Only z alone, x alone, y alone, and x \
+               \and y together at the clearance height or above it are safe."
+        ],
+      hints =
+        [ "Divide it: z alone, then x alone, then y alone.",
+          "Let the program begin at the clearance height: its first move then goes across only."
+        ]
+    }
+
+-- | Regions of the rapid moves that change z together with x or y, or that change x and y below the
+-- clearance height.
+boxMoves :: Toolpath -> [Region]
+boxMoves path =
+  [ Toolpath.origin m
+    | block <- blocks path,
+      m <- Toolpath.moves block,
+      Toolpath.pace m == Part.Rapid,
+      let (before, behind) = Toolpath.heights m
+          from = Segment.start (Toolpath.segment m)
+          to = Segment.end (Toolpath.segment m)
+          movesX = Vec.x from /= Vec.x to
+          movesY = Vec.y from /= Vec.y to,
+      (movesX || movesY) && before /= behind || movesX && movesY && before < free
+  ]
+  where
+    free = Heading.highestClearance path
+
 -- | Position in pulses at which the tool comes down first.
 landingOf :: FrameProgram -> Pulses3
 landingOf (FrameProgram begin planned) = fst (Writer.landing begin (map frame planned))
-
--- | Clearance heights of the machining statements.
-clearances :: [Block] -> [Mm]
-clearances = concatMap heightsOf
-  where
-    heightsOf block = case block of
-      Toolpath.Cutting {Toolpath.job = Located _ job} -> milling job
-      Toolpath.Clearing {Toolpath.pocket = Located _ p} -> milling (Part.wall p)
-      Toolpath.Holing (Located _ d) _ -> [Part.travelHeight d]
-      Toolpath.Travelling {} -> []
-      Toolpath.Commanding _ -> []
-    milling job = maybe [] pure (Part.clearance job)

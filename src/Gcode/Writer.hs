@@ -166,6 +166,7 @@ headTexts :: Context -> Maybe Int -> [(Text, Text)]
 headTexts Context {machine, form, heading} tool =
   [("part", partName heading <> (if title == "" then "" else ", " <> title))]
     <> [("machine", name)]
+    <> [("remark", remark form) | remark form /= ""]
     <> [ ("tool " <> Decimal.whole n, text)
          | (n, text) <- toolList heading,
            ProgramForm.changesTools (dialect form) || Just n == tool

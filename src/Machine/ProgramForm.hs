@@ -12,6 +12,7 @@ module Machine.ProgramForm
 where
 
 import Base.Quantity (Mm, Seconds)
+import Data.Text (Text)
 
 -- | Form of the programs of a modern control.
 data ProgramForm = ProgramForm
@@ -21,7 +22,9 @@ data ProgramForm = ProgramForm
     spinUp :: Seconds,
     rapidPath :: RapidPath,
     -- | largest count of characters in a line, without its end
-    mostCharacters :: Int
+    mostCharacters :: Int,
+    -- | a remark for the head of each file; may be empty
+    remark :: Text
   }
   deriving stock (Eq, Show)
 

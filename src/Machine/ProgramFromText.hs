@@ -9,6 +9,7 @@ import Base.Quantity (Mm (..), Seconds (..))
 import Base.Region (Located (..), Region)
 import Base.Result (Result)
 import Machine.Error (Error (..))
+import Machine.FrameFromText (quotedText)
 import Machine.Machine (CommandWords (..), Machine)
 import Machine.Machine qualified as Machine
 import Machine.ProgramForm
@@ -25,7 +26,8 @@ programForm s = do
     <*> required "spin-up" "spin-up 3 s" spinUpFrom section
     <*> required "rapid" "rapid straight" rapidFrom section
     <*> required "characters" "characters 250" charactersFrom section
-    <* allowKeys ["dialect", "retract", "spin-up", "rapid", "characters"] [] section
+    <*> optional "remark" "" quotedText section
+    <* allowKeys ["dialect", "retract", "spin-up", "rapid", "characters", "remark"] [] section
   where
     dialectFrom =
       choice [("linuxcnc", LinuxCnc), ("grbl", Grbl), ("marlin", Marlin), ("fanuc", Fanuc)]

@@ -39,6 +39,9 @@ data StateDemand = StateDemand
     level :: Maybe Int,
     -- | height in picometres from which on the motions of the file are not those of the program
     excursion :: Maybe Int,
+    -- | height in picometres from which on rapid moves pass over everything, if their axes may arrive
+    -- one after the other; Nothing if they move along a straight line
+    boxLevel :: Maybe Int,
     -- | true if the operator switches the spindle
     isByHand :: Bool
   }
@@ -75,6 +78,9 @@ data ControlFault
     PathModeUnknown
   | -- | x or y moves while the height is unknown, or together with z
     UnsafeMove
+  | -- | a rapid move of several axes that may arrive one after the other, below the clearance height
+    -- or together with z
+    BoxMove
   | -- | z goes down to a position before x and y have theirs
     UnsafeDescent
   deriving stock (Eq, Ord, Show)
@@ -167,11 +173,19 @@ unsafeMoves :: StateDemand -> Step -> Travel -> [ControlFinding]
 unsafeMoves demand step travel
   | isKnown (from travel) && isKnown (to travel) =
     [bad UnsafeMove | isOutside (from travel) /= isOutside (to travel), not isAloneZ]
+      <> [bad BoxMove | mode travel == RapidMode, Just free <- [boxLevel demand], isBox free]
   | isAloneZ = [bad UnsafeDescent | comesDown && not (hasPlane (to travel))]
   | isAbove (placeZ (from travel)) && placeZ (from travel) == placeZ (to travel) = []
   | otherwise = [bad UnsafeMove]
   where
     bad = ControlFinding (line step) Nothing
+    movesX = placeX (from travel) /= placeX (to travel)
+    movesY = placeY (from travel) /= placeY (to travel)
+    movesZ = placeZ (from travel) /= placeZ (to travel)
+    isBox free = (movesX || movesY) && movesZ || movesX && movesY && isBelow free
+    isBelow free = case placeZ (from travel) of
+      At z -> z < free
+      _ -> False
     isAloneZ =
       placeX (from travel) == placeX (to travel) && placeY (from travel) == placeY (to travel)
     hasPlane p = isAt (placeX p) && isAt (placeY p)
@@ -295,6 +309,13 @@ toReport form lineRegion (ControlFinding n set' fault') =
           "",
           "Whatever stands in its way is hit.",
           safeHint
+        )
+      BoxMove ->
+        ( "E0734",
+          "a rapid move whose axes may arrive one after the other",
+          "",
+          "This control does not move along a straight line in rapid.",
+          "Move z alone, and x and y together only at the clearance height or above it."
         )
       UnsafeDescent ->
         ( "E0732",

@@ -26,7 +26,7 @@ import Gcode.ToFrames (ReadFrame (..), Reading (..))
 import Gcode.ToFrames qualified as ToFrames
 import Machine.Machine (Machine, ProgramForm (..))
 import Machine.Machine qualified as Machine
-import Machine.ProgramForm (Retract (..))
+import Machine.ProgramForm (RapidPath (..), Retract (..))
 import Machine.ProgramForm qualified as ProgramForm
 import Verify.ControlState (StateDemand (..))
 import Verify.ControlState qualified as ControlState
@@ -92,6 +92,12 @@ demandOf machine form heading program =
       cuttingPlane = PlaneXY,
       level = inPicometres <$> levelOf machine form heading,
       excursion = inPicometres <$> excursionOf machine form heading program,
+      boxLevel =
+        let Mm z = freeHeight heading
+         in case rapidPath form of
+              StraightPath -> Nothing
+              BoxPath | isInfinite z -> Just maxBound
+              BoxPath -> Just (round (z * 1.0e9)),
       isByHand = isSpindleByHand heading
     }
   where
