@@ -51,8 +51,6 @@ import Control.CompensationCheck qualified as CompensationCheck
 import Control.Monad (when)
 import Data.Set qualified as Set
 import Data.Text (Text)
-import Data.Text qualified as Text
-import Data.Text.Encoding qualified as Encoding
 import Frame.Error qualified as Frame
 import Frame.Frame (FrameProgram)
 import Frame.Frame qualified as Frame
@@ -83,7 +81,7 @@ import Surface.Error qualified as Surface
 import Surface.Parameter qualified as Surface
 import Surface.Syntax qualified as Surface
 import Tape.Punch qualified as Tape
-import Tape.Tape (Tape (..))
+import Tape.Tape (Tape)
 import Toolpath.Error qualified as Toolpath
 import Toolpath.FromPart qualified as Toolpath
 import Toolpath.Toolpath (Toolpath, isCompensated, withoutCuts)
@@ -228,7 +226,7 @@ makeFiles form verification path machine =
         let frames = map Frame.frame (Frame.plannedFrames (program punched))
         onPath <- prove machine toolpath (program punched) frames
         let bound = FromGcode.blendingBound machine onPath
-            written = withFiles (Writer.write machine form heading bound (program punched)) (program punched)
+            written = withFiles machine (Writer.write machine form heading bound (program punched)) (program punched)
         proof <- proveFiles machine form (Heading.fromToolpath path) (program punched) onPath (map Writer.fileText (files written))
         pure Compiled {machine, toolpath, punched = written, proof = Just proof}
   where
@@ -285,8 +283,9 @@ readerWarning machine Punched {program, tape} =
 -- | The frames of a toolpath for one machine, and the tape that contains these frames.
 data Punched = Punched
   { program :: FrameProgram,
-    -- | the tape; for a modern control all its files, one after the other
-    tape :: Tape,
+    -- | the tape; for a modern control the frames alone, as its description lays them out, which
+    -- serve the model of the controller
+    tape :: ~Tape,
     -- | the files for a modern control; empty for other machines
     files :: [ToolFile]
   }
@@ -304,21 +303,24 @@ punch machine path =
     -- The frames of a program without compensation need not be in memory as a whole.
     when compensated (noneOf (CompensationCheck.reports machine program))
     case Machine.programForm machine of
-      Nothing -> pure Punched {program, tape = Tape.write machine (Frame.start program) frames, files = []}
+      Nothing ->
+        let tape = Tape.write machine (Frame.start program) frames
+         in tape `seq` pure Punched {program, tape, files = []}
       Just form -> do
         noneOf (Requirement.refusals machine form heading path program)
-        pure (withFiles (Writer.write machine form heading Nothing program) program)
+        pure (withFiles machine (Writer.write machine form heading Nothing program) program)
   where
     heading = Heading.fromToolpath path
     compensated = isCompensated path
     noneOf refused = if null refused then pure () else Result [] refused Nothing
 
 -- | Frames with the files that contain them.
-withFiles :: [ToolFile] -> FrameProgram -> Punched
-withFiles files program =
+withFiles :: Machine -> [ToolFile] -> FrameProgram -> Punched
+withFiles machine files program =
   Punched
     { program,
-      tape = Tape (Encoding.encodeUtf8 (Text.concat (map Writer.fileText files))),
+      tape =
+        Tape.write machine (Frame.start program) (map Frame.frame (Frame.plannedFrames program)),
       files
     }
 

@@ -2,6 +2,8 @@
 module Cli.GcodeFile
   ( GcodeFile (..),
     read,
+    readAlone,
+    listing,
     reports,
   )
 where
@@ -11,13 +13,17 @@ import Base.Region (Region (Region), Source)
 import Base.Region qualified as Region
 import Compile (Compiled, Punched (..))
 import Compile qualified
+import Data.IntMap.Strict qualified as IntMap
 import Data.Text (Text)
 import Data.Text qualified as Text
+import Draw.TapeRows (RowRange (..))
 import Gcode.Block (Fault (..))
 import Gcode.FaultReport qualified as FaultReport
 import Gcode.Heading qualified as Heading
-import Gcode.ToFrames (Reading)
-import Machine.Machine (ProgramForm)
+import Gcode.Run qualified as Run
+import Gcode.ToFrames (ReadFrame (..), Reading (..))
+import Gcode.ToFrames qualified as ToFrames
+import Machine.Machine (Machine, ProgramForm)
 import Report.Report (Label (..), Report (others))
 import Verify.FromGcode qualified as FromGcode
 import Verify.Proof (Proof)
@@ -44,6 +50,46 @@ read form compiled gcode =
     machine = Compile.machine compiled
     heading = Heading.fromToolpath (Compile.toolpath compiled)
     planned = program (Compile.punched compiled)
+
+-- | Reads a file without its program. The tool comes down where the file says, and from a position
+-- of 0.
+readAlone :: Machine -> ProgramForm -> GcodeFile -> Either (Source, Report) Reading
+readAlone machine form file = case Run.run form Nothing 1 (fileText file) of
+  Left fault ->
+    Left
+      ( Region.fromText (fileName file) (fileText file),
+        FaultReport.toReport (regionFrom (fileText file) 0) fault
+      )
+  Right steps -> Right (ToFrames.reading machine Nothing Nothing 0 steps)
+
+-- | Lines of a file in a range, each with its number and the frames that are read from it, and the
+-- unit of the range with the count of these units in the file.
+listing :: RowRange -> GcodeFile -> Reading -> ([Text], (Text, Int))
+listing range file reading =
+  ( [ Text.justifyRight 6 ' ' (Decimal.whole n) <> "  " <> text <> frameWords text numbers
+      | (n, text) <- zip [1 ..] (Text.lines (fileText file)),
+        let numbers = IntMap.findWithDefault [] n frameNumbers,
+        isInRange n numbers
+    ],
+    extent
+  )
+  where
+    frameNumbers =
+      IntMap.fromListWith
+        (flip (<>))
+        [(readFrom f, [k]) | (k, f) <- zip [1 :: Int ..] (readFrames reading)]
+    isInRange n numbers = case range of
+      Everything -> True
+      Rows a b -> a <= n && n <= b
+      Frames a b -> any (\k -> a <= k && k <= b) numbers
+    extent = case range of
+      Frames _ _ -> ("frame", length (readFrames reading))
+      _ -> ("line", length (Text.lines (fileText file)))
+    frameWords text numbers
+      | null numbers = ""
+      | otherwise =
+        Text.replicate (max 2 (44 - Text.length text)) " "
+          <> Text.intercalate ", " ["frame " <> Decimal.whole k | k <- numbers]
 
 -- | File that contains a line, which is counted over all files: its index from 0, the file, and the
 -- count of lines before it.

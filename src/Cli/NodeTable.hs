@@ -27,6 +27,7 @@ import Data.Text (Text)
 import Data.Text qualified as Text
 import Frame.Frame qualified as Frame
 import Frame.MoveTime (moveLength, moveTime, pathTime)
+import Gcode.Writer qualified as Writer
 import Geometry.Segment (Segment (..))
 import Geometry.Segment qualified as Segment
 import Geometry.Vec qualified as Vec
@@ -251,10 +252,14 @@ controllerRow machine Punched {program, tape} =
       ProgramEnds -> [Decimal.fixed 1 (fromIntegral (totalTicks whole) / fromIntegral clock), "s"]
 
 tapeRows :: Machine -> Punched -> [[Text]]
-tapeRows machine Punched {program, tape} =
+tapeRows machine Punched {program, tape, files} =
   [ ["frames", Decimal.whole (length (Frame.plannedFrames program)), ""],
     [ maybe "characters" (const "rows of tape") (Tape.metres machine tape),
-      Decimal.whole (Tape.rowCount tape),
+      Decimal.whole
+        ( if null files
+            then Tape.rowCount tape
+            else sum (map (Text.length . Writer.fileText) files)
+        ),
       ""
     ]
   ]

@@ -13,6 +13,7 @@ import Base.Region (Source)
 import Base.Region qualified as Region
 import Cli.Error (Error (..))
 import Cli.Error qualified as Cli
+import Cli.GcodeFile qualified as GcodeFile
 import Cli.InputFile
   ( Input (..),
     displayName,
@@ -26,6 +27,7 @@ import Cli.Output (Exit (..), Reporter)
 import Cli.Output qualified as Output
 import Cli.OutputFile (writeText)
 import Cli.RunTable qualified as RunTable
+import Cli.TapeDifference qualified as TapeDifference
 import Cli.TapeInput (onFirstMachine, withTapeFile)
 import Compile (Punched (..))
 import Compile qualified
@@ -55,6 +57,7 @@ import System.FilePath (takeExtension, takeFileName)
 import Tape.Punch (TapeFrame (frameRead))
 import Tape.Punch qualified as Tape
 import Tape.Tape (Tape)
+import Verify.FromGcode qualified as FromGcode
 
 -- | Runs the tape of a program, or a tape.
 run :: Reporter -> RunOptions -> IO Exit
@@ -75,9 +78,24 @@ run reporter options
                 sources = ownFiles file given
               }
   | otherwise = withTapeFile reporter target file $ \machine rows ->
-    runTape
-      reporter
-      options
+    case inFrames machine rows of
+      Left (described, fault) ->
+        Failed <$ Output.showReports reporter (Region.mainFile described) described [fault]
+      Right tape -> runTape reporter options (alone machine tape)
+  where
+    file = runInput options
+    target = runTarget options
+    isProgram = takeExtension file == ".part" || LoadedProgram.isInputSheet file
+    -- A file of G-code is run as the tape that has its frames alone.
+    inFrames machine rows = case Machine.programForm machine of
+      Nothing -> Right rows
+      Just form ->
+        Tape.write machine 0 . FromGcode.framesRead
+          <$> GcodeFile.readAlone
+            machine
+            form
+            (GcodeFile.GcodeFile (displayName file) (TapeDifference.textOf rows))
+    alone machine rows =
       RunSubject
         { tapeName = displayName file,
           text = Region.fromText (displayName file) "",
@@ -87,10 +105,6 @@ run reporter options
           rows,
           sources = file : map Text.unpack (maybeToList target)
         }
-  where
-    file = runInput options
-    target = runTarget options
-    isProgram = takeExtension file == ".part" || LoadedProgram.isInputSheet file
 
 -- | Tape that is run.
 data RunSubject = RunSubject

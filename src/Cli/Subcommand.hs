@@ -56,6 +56,7 @@ import Draw.Plot qualified as Plot
 import Draw.TapeRows qualified as TapeRows
 import Frame.Frame (Frame)
 import Frame.Frame qualified as Frame
+import Gcode.ToFrames (Reading)
 import Gcode.Writer qualified as Writer
 import Machine.BuiltIn qualified as BuiltIn
 import Machine.Machine (Machine, MachineName (..), ProgramForm)
@@ -77,6 +78,7 @@ import Sheet.Unsupported qualified as Unsupported
 import Tape.Damage (Damage)
 import Tape.Punch qualified as Tape
 import Tape.Tape (Tape (..))
+import Verify.FromGcode qualified as FromGcode
 import Verify.PulseProof (PulseProof)
 
 -- | Runs a subcommand. @version@ is that of partc.
@@ -365,23 +367,52 @@ decode reporter target tapeFile =
 -- If the tape is a text without holes, prints its lines. The rows are made again from the frames
 -- that were read. A range outside of the tape is an error.
 drawTape :: Reporter -> Maybe Text -> TapeRows.RowRange -> FilePath -> IO Exit
-drawTape reporter target range tapeFile = withTape reporter target tapeFile $ \machine read' -> do
-  let rows = Tape.rows machine 0 read'
-      (counted, count) = TapeRows.extent machine range rows
-  case TapeRows.picture machine range rows of
-    Nothing -> failWith reporter (displayName tapeFile) (NothingInRange counted count)
-    Just picture -> printResult reporter picture
+drawTape reporter target range tapeFile =
+  withTapeFile reporter target tapeFile $ \machine rows -> case Machine.programForm machine of
+    Just form -> withGcode reporter machine form (gcodeFile tapeFile rows) $ \reading ->
+      case GcodeFile.listing range (gcodeFile tapeFile rows) reading of
+        ([], (counted, count)) ->
+          failWith reporter (displayName tapeFile) (NothingInRange counted count)
+        (lines', _) -> printResult reporter (Text.unlines lines')
+    Nothing -> framesOfTape reporter tapeFile machine rows $ \read' -> do
+      let drawn = Tape.rows machine 0 read'
+          (counted, count) = TapeRows.extent machine range drawn
+      case TapeRows.picture machine range drawn of
+        Nothing -> failWith reporter (displayName tapeFile) (NothingInRange counted count)
+        Just picture -> printResult reporter picture
 
 -- | Reads a tape for which there is no program, and continues with its machine and its frames. The
 -- tape does not contain the position from which the cutter starts, so this is assumed to be 0.
 -- Without @target@ the command fails.
 withTape :: Reporter -> Maybe Text -> FilePath -> (Machine -> [Frame] -> IO Exit) -> IO Exit
 withTape reporter target tapeFile continue =
-  withTapeFile reporter target tapeFile $ \machine rows -> case Tape.read machine 0 rows of
-    Left damage -> do
-      let (text, damaged) = ForeignTape.damaged machine (displayName tapeFile) rows damage
-      Failed <$ Output.showReports reporter (displayName tapeFile) text [damaged]
-    Right read' -> continue machine read'
+  withTapeFile reporter target tapeFile $ \machine rows -> case Machine.programForm machine of
+    Just form ->
+      withGcode
+        reporter
+        machine
+        form
+        (gcodeFile tapeFile rows)
+        (continue machine . FromGcode.framesRead)
+    Nothing -> framesOfTape reporter tapeFile machine rows (continue machine)
+
+-- | Continues with the frames of a tape.
+framesOfTape :: Reporter -> FilePath -> Machine -> Tape -> ([Frame] -> IO Exit) -> IO Exit
+framesOfTape reporter tapeFile machine rows continue = case Tape.read machine 0 rows of
+  Left damage -> do
+    let (text, damaged) = ForeignTape.damaged machine (displayName tapeFile) rows damage
+    Failed <$ Output.showReports reporter (displayName tapeFile) text [damaged]
+  Right read' -> continue read'
+
+-- | Continues with what is read from a file of G-code without its program.
+withGcode ::
+  Reporter -> Machine -> ProgramForm -> GcodeFile -> (Reading -> IO Exit) -> IO Exit
+withGcode reporter machine form gcode continue = case GcodeFile.readAlone machine form gcode of
+  Left (text, fault) -> Failed <$ Output.showReports reporter (Region.mainFile text) text [fault]
+  Right reading -> continue reading
+
+gcodeFile :: FilePath -> Tape -> GcodeFile
+gcodeFile tapeFile rows = GcodeFile (displayName tapeFile) (TapeDifference.textOf rows)
 
 -- Machines, explanations, editors -----------------------------------------------------------------
 
