@@ -49,6 +49,7 @@ import Checked.FromSurface qualified as Checked
 import Checked.Syntax qualified as Checked
 import Control.CompensationCheck qualified as CompensationCheck
 import Control.Monad (when)
+import Data.Maybe (isNothing)
 import Data.Set qualified as Set
 import Data.Text (Text)
 import Frame.Error qualified as Frame
@@ -262,10 +263,17 @@ makePunched verification path machine =
       Verified -> do
         frames <- mapErrors id Tape.toReport (fromEither readBack)
         Just <$> prove machine toolpath program frames
-    warned (readerWarning machine punched)
+    warned (readerWarning machine punched <> beginningWarning machine)
     pure Compiled {machine, toolpath, punched, proof}
   where
     toolpath = withoutCuts path
+
+-- | Warning of a text for a modern control whose beginning is not proven.
+beginningWarning :: Machine -> [Report]
+beginningWarning machine =
+  [ Frame.warningReport machine Frame.BeginningUnproven
+    | isNothing (Machine.pitch (Machine.medium machine))
+  ]
 
 -- | Warning of frames within a cut that the machine does not read in time (Tape → Pulse).
 readerWarning :: Machine -> Punched -> [Report]

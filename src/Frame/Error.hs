@@ -84,6 +84,8 @@ data Warning
   | -- | frames between two feed moves that are not read in time, so that the machine stands still:
     -- the number of the first one, whose region this is, and how many there are
     ReaderTooSlow Region Int Int
+  | -- | a text for a modern control whose description has no form of programs
+    BeginningUnproven
   deriving stock (Eq, Ord, Show)
 
 -- | Kind of a command.
@@ -427,6 +429,22 @@ warningReport machine warning = case warning of
     )
       { message = ["So the tape does not start the spindle here."],
         hints = ["Write the speed, for example: spindle cw 800 rpm"]
+      }
+  BeginningUnproven ->
+    ( report
+        Report.Warning
+        "W0508"
+        InFile
+        ("the proof for " <> machineName machine <> " covers the path of the cutter only")
+    )
+      { message =
+          [ "It does not cover how the tool comes to the start, the length of the tool, and how far \
+            \the control rounds corners. The file does not say them."
+          ],
+        hints =
+          [ "Compile for the control that reads the file, such as linuxcnc-mill or grbl: its file \
+            \says them, and they are proven."
+          ]
       }
   ReaderTooSlow region n count ->
     ( report

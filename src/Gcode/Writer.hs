@@ -12,8 +12,9 @@ where
 
 import Base.Decimal qualified as Decimal
 import Base.PulseVector (Pulses2 (..), Pulses3 (..))
-import Base.Quantity (Mm (..), Pulses (..), Seconds (..))
+import Base.Quantity (Feed (..), Mm (..), Pulses (..), Seconds (..), minus, travelTime)
 import Data.Char (isAscii, isPrint)
+import Data.List (foldl')
 import Data.Maybe (fromMaybe, isJust, listToMaybe, mapMaybe, maybeToList)
 import Data.Text (Text)
 import Data.Text qualified as Text
@@ -23,6 +24,7 @@ import Frame.Frame qualified as Frame
 import Gcode.Dialect qualified as Dialect
 import Gcode.Heading (Heading (..))
 import Geometry.Carrier qualified as Carrier
+import Geometry.Segment qualified as Segment
 import Machine.Machine
   ( Axis (..),
     CommandName,
@@ -119,17 +121,21 @@ fileLines :: Context -> FilePart -> [Text]
 fileLines context part =
   [percent | hasPercent]
     <> programLine
-    <> map (commentLine context) (headTexts context (toolOf part))
-    <> modeLines context
-    <> retractLines context
-    <> toolLines context (toolOf part)
-    <> motions
-    <> retractLines context
-    <> ["M5" | not (isSpindleByHand (heading context))]
-    <> ["M9" | hasCoolant final]
-    <> finishLines context
+    <> map (commentLine context) (headTexts context part)
+    <> numbered (form context) body
     <> [percent | hasPercent]
   where
+    body =
+      concat
+        [ modeLines context,
+          retractLines context,
+          toolLines context (toolOf part),
+          motions,
+          retractLines context,
+          ["M5" | not (isSpindleByHand (heading context))],
+          ["M9" | hasCoolant final],
+          finishLines context
+        ]
     percent = "%"
     hasPercent = dialect (form context) `elem` [LinuxCnc, Fanuc]
     programLine =
@@ -162,16 +168,18 @@ landing begin frames = case frames of
   _ -> (begin, frames)
 
 -- | Texts of the comments at the head of a file.
-headTexts :: Context -> Maybe Int -> [(Text, Text)]
-headTexts Context {machine, form, heading} tool =
+headTexts :: Context -> FilePart -> [(Text, Text)]
+headTexts context@Context {machine, form, heading} part =
   [("part", partName heading <> (if title == "" then "" else ", " <> title))]
     <> [("machine", name)]
     <> [("remark", remark form) | remark form /= ""]
+    <> [("time", timeText (timeOf machine (begins part) (framesOf part)))]
     <> [ ("tool " <> Decimal.whole n, text)
          | (n, text) <- toolList heading,
-           ProgramForm.changesTools (dialect form) || Just n == tool
+           ProgramForm.changesTools (dialect form) || Just n == toolOf part
        ]
     <> [("before the start", text) | text <- operatorTexts form heading]
+    <> [("the build needs", text) | dialect form == Marlin, text <- marlinTexts context part]
   where
     title = partTitle heading
     MachineName name = Machine.name machine
@@ -185,7 +193,6 @@ operatorTexts form heading =
   ]
     <> safeTexts
     <> ["switch the spindle on by hand" | isSpindleByHand heading]
-    <> marlinTexts
   where
     safeTexts = case (retract form, safeHeight heading) of
       (SafeHeight, Just z) ->
@@ -193,9 +200,55 @@ operatorTexts form heading =
           "nothing is above the tool on its way up to that height"
         ]
       _ -> []
-    marlinTexts = case dialect form of
-      Marlin -> ["the build has ARC SUPPORT and SPINDLE FEATURE with speeds in rpm"]
-      _ -> []
+
+-- | Options of the firmware without which it passes over commands of the file, and goes on.
+marlinTexts :: Context -> FilePart -> [Text]
+marlinTexts Context {machine, heading} part =
+  ["CNC_COORDINATE_SYSTEMS and CNC_WORKSPACE_PLANES"]
+    <> ["ARC_SUPPORT" | any isArc (framesOf part)]
+    <> ["SPINDLE_FEATURE with CUTTER_POWER_UNIT RPM" | not (isSpindleByHand heading)]
+    <> ["COOLANT_CONTROL with COOLANT_FLOOD" | isCooled part || not (null cooling)]
+    <> ["a display or EMERGENCY_PARSER, for the stops" | not (null stops)]
+  where
+    isArc f = case motion f of
+      Circular _ -> True
+      _ -> False
+    actions = concatMap (actionsOf machine) (framesOf part)
+    cooling = [() | CoolantSwitch _ <- actions]
+    stops = [() | OtherCommand (name, _) <- actions, name `elem` stopNames]
+    stopNames = map commandName (programStop (Machine.commandWords machine))
+
+-- | Lines with the numbers that the description asks for.
+numbered :: ProgramForm -> [Text] -> [Text]
+numbered form body = case numberStep form of
+  Nothing -> body
+  Just step -> zipWith number [step, 2 * step ..] body
+  where
+    number n text = "N" <> Decimal.whole n <> " " <> text
+
+-- | Time of frames at their feeds, without dwells and accelerations. @begin@ is the position before
+-- the first frame, in pulses.
+timeOf :: Machine -> Pulses3 -> [Frame] -> Seconds
+timeOf machine begin frames = snd (foldl' add (begin, Seconds 0) frames)
+  where
+    add (at, Seconds t) f =
+      let end = at + increment f
+          Seconds more = if Frame.isMoving f then frameTime at end f else Seconds 0
+       in at `seq` (end, Seconds (t + more))
+    frameTime at end f =
+      let Mm flat = Segment.length (Frame.segment machine at f)
+          Mm rise = minus (Frame.height machine end) (Frame.height machine at)
+          code = if motion f == Rapid then Machine.rapidCode machine else feedCode f
+       in travelTime
+            (Mm (sqrt (flat * flat + rise * rise)))
+            (Feed (fromMaybe 0 (Machine.valueOf machine code)))
+
+-- | Time in minutes and seconds, rounded up to whole seconds.
+timeText :: Seconds -> Text
+timeText (Seconds t) =
+  Decimal.whole (whole `div` 60) <> " min " <> Decimal.whole (whole `mod` 60) <> " s"
+  where
+    whole = ceiling t :: Int
 
 -- | A comment with a fixed word before the text. Controls act on some characters and on some first
 -- words of comments, so only harmless characters are kept.
@@ -238,7 +291,11 @@ toolLines Context {form} tool =
   [ line
     | n <- maybeToList tool,
       ProgramForm.changesTools (dialect form),
-      line <- ["T" <> Decimal.whole n <> " M6", "G43 H" <> Decimal.whole n]
+      line <-
+        [ "G53 G0 X" <> Decimal.short 3 x <> " Y" <> Decimal.short 3 y
+          | (Mm x, Mm y) <- maybeToList (changePlace form)
+        ]
+          <> ["T" <> Decimal.whole n <> " M6", "G43 H" <> Decimal.whole n]
   ]
 
 -- | Lines that end the program.

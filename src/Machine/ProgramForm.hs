@@ -23,6 +23,11 @@ data ProgramForm = ProgramForm
     rapidPath :: RapidPath,
     -- | largest count of characters in a line, without its end
     mostCharacters :: Int,
+    -- | place of the tool change: x and y in machine coordinates, in mm; Nothing for a change where
+    -- the tool is. The tool goes there at the retract height
+    changePlace :: Maybe (Mm, Mm),
+    -- | step of the line numbers; Nothing for lines without numbers
+    numberStep :: Maybe Int,
     -- | a remark for the head of each file; may be empty
     remark :: Text
   }

@@ -26,8 +26,15 @@ programForm s = do
     <*> required "spin-up" "spin-up 3 s" spinUpFrom section
     <*> required "rapid" "rapid straight" rapidFrom section
     <*> required "characters" "characters 250" charactersFrom section
+    <*> optional "change-at" Nothing (fmap Just . placeFrom) section
+    <*> optional "line-numbers" Nothing (fmap Just . stepFrom) section
     <*> optional "remark" "" quotedText section
-    <* allowKeys ["dialect", "retract", "spin-up", "rapid", "characters", "remark"] [] section
+    <* allowKeys
+      ( ["dialect", "retract", "spin-up", "rapid", "characters", "change-at", "line-numbers"]
+          <> ["remark"]
+      )
+      []
+      section
   where
     dialectFrom =
       choice [("linuxcnc", LinuxCnc), ("grbl", Grbl), ("marlin", Marlin), ("fanuc", Fanuc)]
@@ -35,6 +42,15 @@ programForm s = do
     spinUpFrom = withArguments ["spin-up 3 s"] oneTime
     oneTime args = case args of
       [a, b] -> fmap Seconds <$> quantityIn "the time of the spindle" "s" 60 a b
+      _ -> Nothing
+    stepFrom = withArguments ["line-numbers 10"] oneStep
+    oneStep args = case args of
+      [a] -> wholeIn "the step of the line numbers" 1 100 a
+      _ -> Nothing
+    placeFrom = withArguments ["change-at 0 mm 0 mm"] onePlace
+    onePlace args = case map value args of
+      [Number _ x, Word "mm", Number _ y, Word "mm"]
+        | abs x <= 10000, abs y <= 10000 -> Just (pure (Mm x, Mm y))
       _ -> Nothing
     charactersFrom = withArguments ["characters 250"] oneCount
     oneCount args = case args of
