@@ -86,7 +86,7 @@ import Tape.Tape (Tape)
 import Toolpath.Error qualified as Toolpath
 import Toolpath.FromPart qualified as Toolpath
 import Toolpath.Toolpath (Toolpath, isCompensated, withoutCuts)
-import Verify.ControlState qualified as ControlState
+import Verify.ControlFault qualified as ControlFault
 import Verify.FromGcode qualified as FromGcode
 import Verify.FromPulses qualified as FromPulses
 import Verify.FromTape qualified as Verify
@@ -220,31 +220,42 @@ makeFiles :: ProgramForm -> Verification -> Toolpath -> Machine -> Result Report
 makeFiles form verification path machine =
   toolpath `seq` do
     punched <- punch machine path
-    when (null (Frame.plannedFrames (program punched))) (failed (Project.toReport Project.NothingToPunch))
+    when
+      (null (Frame.plannedFrames (program punched)))
+      (failed (Project.toReport Project.NothingToPunch))
     case verification of
       Unverified -> pure Compiled {machine, toolpath, punched, proof = Nothing}
       Verified -> do
         let frames = map Frame.frame (Frame.plannedFrames (program punched))
         onPath <- prove machine toolpath (program punched) frames
         let bound = FromGcode.blendingBound machine onPath
-            written = withFiles machine (Writer.write machine form heading bound (program punched)) (program punched)
-        proof <- proveFiles machine form (Heading.fromToolpath path) (program punched) onPath (map Writer.fileText (files written))
+            texts = Writer.write machine form heading bound (program punched)
+            written = withFiles machine texts (program punched)
+        proof <- proveFiles machine form heading (program punched) onPath texts
         pure Compiled {machine, toolpath, punched = written, proof = Just proof}
   where
     toolpath = withoutCuts path
     heading = Heading.fromToolpath path
 
 -- | Proof of files that the compiler has written. @onPath@ is the proof of their frames.
-proveFiles :: Machine -> ProgramForm -> Heading -> FrameProgram -> Proof -> [Text] -> Result Report Report Proof
+proveFiles ::
+  Machine ->
+  ProgramForm ->
+  Heading ->
+  FrameProgram ->
+  Proof ->
+  [ToolFile] ->
+  Result Report Report Proof
 proveFiles machine form heading program onPath texts =
-  case FromGcode.readTexts machine form heading program texts of
+  case FromGcode.readTexts machine form heading program (map Writer.fileText texts) of
     Left fault -> failed (inFile (FaultReport.toReport (\_ _ -> Region 0 0) fault))
     Right reading
       | FromGcode.framesRead reading /= map Frame.frame (Frame.plannedFrames program) ->
         failed (Tape.toReport (Tape.Damage 1 Nothing Nothing Tape.Misread))
       | otherwise ->
         let proof = FromGcode.judged machine form heading program reading onPath
-         in failing (map inFile (gcodeReports machine form (const (Region 0 0)) proof)) proof
+            reports = gcodeReports machine form (const (Region 0 0)) proof
+         in failing (map inFile reports) proof
   where
     inFile r = r {place = InFile, others = []}
 
@@ -358,8 +369,8 @@ fromAnyStart part Compiled {machine, toolpath, punched} =
       Punched {program} <- ifSound (punch machine path)
       pure (withoutCuts path, program)
 
--- | Proves files of G-code that may come from elsewhere, as 'proveTape' does, and judges the state of
--- the control in them.
+-- | Proves files of G-code that may come from elsewhere, as 'proveTape' does, and judges the state
+-- of the control in them.
 proveGcode :: ProgramForm -> Maybe Part -> Compiled -> Reading -> Proof
 proveGcode form part compiled@Compiled {machine, toolpath} reading =
   FromGcode.judged
@@ -375,7 +386,7 @@ proveGcode form part compiled@Compiled {machine, toolpath} reading =
 -- | Reports of the proof of a file. @lineRegion@ gives the region of a line of the file.
 gcodeReports :: Machine -> ProgramForm -> (Int -> Region) -> Proof -> [Report]
 gcodeReports machine form lineRegion proof =
-  map (ControlState.toReport form lineRegion) (Proof.controlFindings proof)
+  map (ControlFault.toReport form lineRegion) (Proof.controlFindings proof)
     <> Proof.toReports machine proof
 
 -- | Runs a tape on the controller of the machine and compares its pulses with the motions of the

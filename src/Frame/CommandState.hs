@@ -13,7 +13,13 @@ module Frame.CommandState
   )
 where
 
-import Machine.Machine (CommandName, CommandValue (..), CommandWord (..), CommandWords (..), Machine)
+import Machine.Machine
+  ( CommandName,
+    CommandValue (..),
+    CommandWord (..),
+    CommandWords (..),
+    Machine,
+  )
 import Machine.Machine qualified as Machine
 import Part.Part (Command (..), Sense (..), Switch (..))
 

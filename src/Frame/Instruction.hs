@@ -66,7 +66,8 @@ instructions :: Machine -> Toolpath -> [Instruction]
 instructions machine path = concat (arranged (zip blocks ofBlocks))
   where
     blocks = Toolpath.blocks path
-    ofBlocks = zipWith4 (ofBlock machine) [0 ..] (Toolpath.passNumbers blocks) (wallsOf blocks) blocks
+    passNumbers = Toolpath.passNumbers blocks
+    ofBlocks = zipWith4 (ofBlock machine) [0 ..] passNumbers (wallsOf blocks) blocks
     arranged = case Machine.programForm machine of
       Just _ -> byState machine (CommandState.initial, CommandState.initial)
       Nothing -> map snd

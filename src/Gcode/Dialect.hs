@@ -103,12 +103,12 @@ groupOfG code
   | code `elem` [901, 911] = 4
   | code `elem` [930, 940, 950] = 5
   | code `elem` [200, 210] = 6
-  | code `elem` [400] = 7
+  | code == 400 = 7
   | code `elem` [430, 490] = 8
   | code `elem` [980, 990] = 10
   | code `elem` [540, 550, 560, 570, 580, 590] = 12
   | code `elem` [610, 611, 640] = 13
-  | code `elem` [970] = 14
+  | code == 970 = 14
   | code `elem` [70, 80] = 15
   | otherwise = 0
 

@@ -23,35 +23,88 @@ toReport regionOf (Fault n column reason) =
 wordsOf :: FaultReason -> (Text, [Text], [Text])
 wordsOf reason = case reason of
   StrayCharacter c ->
-    ( "the character " <> quoted (Text.singleton c) <> " begins no word",
-      ["Parameters, expressions and control flow are not read: the motions would be unknown."],
-      []
-    )
+    ("the character " <> quoted (Text.singleton c) <> " begins no word", [noExpressions], [])
   NumberMissing c ->
-    ("the letter " <> Text.singleton c <> " has no number", [], ["Write a number behind the letter."])
-  NumberTooLong -> ("a number has too many digits", ["At most 8 before the point and 8 after it are read."], [])
+    ( "the letter " <> Text.singleton c <> " has no number",
+      [noExpressions],
+      ["Write a number after the letter."]
+    )
+  NumberTooLong ->
+    ( "a number has too many digits",
+      ["At most 8 digits before the point are read, and 8 after it."],
+      ["Round the number."]
+    )
   CommentOpen -> ("a comment has no end", [], ["Write ) at its end."])
-  NoWords -> ("the file has no words", [], ["Copy the file again, or write it anew with partc compile."])
-  UnknownWord w -> ("the control does not have the word " <> w, ["It would refuse the line, or pass over it."], [])
+  NoWords ->
+    ("the file has no words", [], ["Copy the file again, or write it anew with partc compile."])
+  UnknownWord w ->
+    ( "the control does not have the word " <> w,
+      ["It would refuse the line, or ignore the word."],
+      ["Check the word, and whether the file is for this machine."]
+    )
   UnprovenWord w ->
     ( "the proof does not know what " <> w <> " does",
-      ["Its effect depends on settings of the control that are not in the file."],
+      ["The motions after it are not certain."],
       ["Write the motions without " <> w <> "."]
     )
   RepeatedWord w ->
-    ("the word " <> w <> " contradicts another word of the line", ["The line has two words of the same group."], [])
-  WordMissing w by -> (by <> " needs " <> w <> " in force or in its line", [], ["Write " <> w <> "."])
-  UnusedWord w -> ("no other word of the line uses " <> w, [], [])
-  BadNumber w -> ("the number of " <> w <> " is not a whole number", [], [])
-  NoMotionMode -> ("the line has a position, but no line says how to move there", [], ["Write G0, G1, G2 or G3."])
-  UnknownPosition c ->
-    ( "the motion depends on where the machine stands along " <> Text.singleton c,
-      ["No line before it gives this position."],
-      ["Write G90 and a position before it."]
+    ( w <> " cannot stand beside another word of this line",
+      ["A line has at most one word of each kind: one X, one motion, one plane."],
+      ["Remove one of the two words, or write two lines."]
     )
-  BadArc -> ("the centre of the arc is missing, or at one of its ends", [], ["Write I and J from its beginning to its centre."])
+  WordMissing w by ->
+    ( by <> " needs " <> w,
+      ["The control would refuse the line."],
+      ["Write " <> w <> " in this line."]
+    )
+  UnusedWord w ->
+    ( "no word of this line uses " <> w,
+      ["The control would refuse the line, or ignore the word."],
+      ["Remove " <> w <> ", or write the word to which it belongs."]
+    )
+  BadNumber w -> badNumber w
+  NoMotionMode ->
+    ( "no line says how to move to this position",
+      ["G0 is a rapid move, G1 a straight cut, G2 and G3 are arcs."],
+      ["Write one of these words in this line, or in a line before it."]
+    )
+  UnknownPosition c ->
+    ( "this motion depends on where the machine stands along " <> Text.singleton c,
+      ["No line before it gives this position."],
+      ["Move to an absolute position (G90) first."]
+    )
+  BadArc -> badArc
   LineTooLong most ->
-    ("the line is too long", ["The control reads at most " <> Decimal.whole most <> " characters of a line."], [])
-  BehindEnd -> ("a line behind the end of the program", ["The control does not read it."], ["Remove it."])
+    ( "the line is too long",
+      ["The control reads at most " <> Decimal.whole most <> " characters of a line."],
+      ["Divide the line, or shorten its comment."]
+    )
+  BehindEnd ->
+    ( "this line is after the end of the program",
+      ["M2 or M30 ends the program. The control does not run what follows."],
+      ["Remove the line, or end the program after it."]
+    )
   where
     quoted w = "\8216" <> w <> "\8217"
+
+-- | Reason for a text that is no word.
+noExpressions :: Text
+noExpressions =
+  "Only words such as X10.5, and comments, are read. Parameters, expressions and loops are not, \
+  \because the motions would not be certain."
+
+badNumber :: Text -> (Text, [Text], [Text])
+badNumber w =
+  ( "the number of " <> w <> " is not possible",
+    ["The number of a tool is whole; the time of a dwell is not negative."],
+    ["Correct the number."]
+  )
+
+badArc :: (Text, [Text], [Text])
+badArc =
+  ( "the centre of this arc is missing, or not possible",
+    [ "I and J lead from the beginning of the arc to its centre, which is at neither end. With R \
+      \in place of I and J, the ends differ and are at most 2 R apart."
+    ],
+    ["Write I and J from the beginning of the arc to its centre."]
+  )

@@ -34,9 +34,9 @@ refusals :: Machine -> ProgramForm -> Heading -> Toolpath -> FrameProgram -> [Re
 refusals machine form heading path program =
   spindleErrors machine heading path
     <> [withoutHeights machine path | Toolpath.isFlat path && not (Toolpath.isTurned path)]
+    <> lowStart machine path program
     <> toolErrors machine form heading path
     <> safeErrors machine form heading path
-    <> lowStart machine path program
     <> [boxError machine region | BoxPath <- [rapidPath form], region <- take 1 (boxMoves path)]
 
 machineName :: Machine -> Text
@@ -51,19 +51,31 @@ spindleErrors machine heading path
     [] -> []
   where
     notTurning (state, block) = case CommandState.spindle state of
-      Nothing -> missing "the spindle is off at this cut" <$> cutOf block
-      Just (_, Nothing) -> missing "the spindle has no speed at this cut" <$> cutOf block
+      Nothing -> off <$> cutOf block
+      Just (_, Nothing) -> slow <$> cutOf block
       Just (_, Just _) -> Nothing
-    missing title region =
-      (at region "E0515" title)
+    off region =
+      (at region "E0511" "the spindle is off at this cut")
         { label = "this cuts",
           message =
-            [machineName machine <> " starts the spindle by the program. A cut without it breaks the tool."],
-          hints =
-            [ "Write ‘spindle cw 8000 rpm’ before it, with the right speed.",
-              "Write ‘spindle manual’ if the spindle is switched by hand."
-            ]
+            [ "On "
+                <> machineName machine
+                <> " the program starts the spindle. A cut with the spindle off breaks the tool."
+            ],
+          hints = ["Write ‘spindle cw 8000 rpm’ before it, with your speed.", byHand]
         }
+    slow region =
+      (at region "E0511" "the spindle has no speed at this cut")
+        { label = "this cuts",
+          message =
+            [ "On "
+                <> machineName machine
+                <> " the program sets the speed. Without one, the control keeps the speed of the \
+                   \program that it ran before."
+            ],
+          hints = ["Write the speed, as in ‘spindle cw 8000 rpm’.", byHand]
+        }
+    byHand = "Write ‘spindle manual’ if the spindle is switched by hand."
 
 -- | State of tool, spindle and coolant in each block.
 statesAt :: [Block] -> [CommandState]
@@ -86,30 +98,52 @@ cutOf block = case block of
 -- | Error of a program that never changes the height.
 withoutHeights :: Machine -> Toolpath -> Report
 withoutHeights machine path =
-  (at (region (start path)) "E0511" "the program has no heights")
+  (at (region (start path)) "E0512" "the program has no heights")
     { message =
-        [ "All its moves are at the height of its start. "
+        [ "All its moves are at the height of its start. On "
             <> machineName machine
-            <> " moves z by the program, so the tool would cut from the first move on."
+            <> " the program moves z, so the tool would cut from the first move on."
         ],
       hints =
-        [ "Write ‘clearance 5’ before the machining, and ‘depth 8’ in each ‘mill’, with the right \
+        [ "Write ‘clearance 5’ before the machining, and ‘depth 8’ in each ‘mill’, with your \
           \heights."
         ]
     }
 
+-- | Error of a program at whose start the tool would come down below the clearance height.
+lowStart :: Machine -> Toolpath -> FrameProgram -> [Report]
+lowStart machine path program = case Heading.clearances path of
+  heights@(_ : _)
+    | down < maximum heights ->
+      [ (at (region (start path)) "E0513" "the program begins below its clearance height")
+          { label = "at the height " <> Decimal.mm down,
+            message =
+              [ "The tool comes down to this height first, and the moves from there may hit a \
+                \clamp. The clearance height is "
+                  <> Decimal.mm (maximum heights)
+                  <> "."
+              ],
+            hints =
+              ["Begin at this height, as in ‘from (0, 0, " <> Decimal.mm (maximum heights) <> ")’."]
+          }
+      ]
+  _ -> []
+  where
+    down = Frame.height machine (landingOf program)
+
 -- | Error of a program whose first tool has no number.
 toolErrors :: Machine -> ProgramForm -> Heading -> Toolpath -> [Report]
 toolErrors machine form heading path =
-  [ (at (region (start path)) "E0513" "the first tool has no number")
+  [ (at (region (start path)) "E0514" "the first tool has no number")
       { message =
           [ if ProgramForm.changesTools (dialect form)
               then
                 machineName machine
-                  <> " takes the length of each tool from its tool table, by the number."
-              else "Each tool has a file of its own, which has the number of the tool in its name."
+                  <> " takes the length of each tool from the tool table of the control, by the \
+                     \number of the tool."
+              else "Each tool has a file of its own, with the number of the tool in its name."
           ],
-        hints = ["Write the number in the statement ‘tool’, as in ‘tool 1 mill(diameter 8)’."]
+        hints = ["Write the number before the tool, as in ‘tool 1 mill(diameter 8 mm)’."]
       }
     | ProgramForm.changesTools (dialect form) || not (null (toolOrder heading)),
       isNothing (firstTool heading)
@@ -118,47 +152,28 @@ toolErrors machine form heading path =
 -- | Error of a program without a safe height, on a control that needs one.
 safeErrors :: Machine -> ProgramForm -> Heading -> Toolpath -> [Report]
 safeErrors machine form heading path =
-  [ (at (region (start path)) "E0514" "the program states no safe height")
+  [ (at (region (start path)) "E0515" "the program has no safe height")
       { message =
           [ machineName machine
-              <> " does not know where its z axis stands. So the tool first goes to a height that \
-                 \is above everything."
+              <> " does not know where its z axis stands, so the tool first goes up to a height \
+                 \above everything. The program has to give that height."
           ],
-        hints = ["Write ‘safe 40’ with a height above all clamps."]
+        hints = ["Write ‘safe 40’ before the machining, with a height above all clamps."]
       }
     | retract form == SafeHeight,
       isNothing (safeHeight heading)
   ]
 
--- | Error of a program at whose start the tool would come down below the clearance height.
-lowStart :: Machine -> Toolpath -> FrameProgram -> [Report]
-lowStart machine path program = case Heading.clearances path of
-  heights@(_ : _)
-    | down < maximum heights ->
-      [ (at (region (start path)) "E0512" "the program begins below its clearance height")
-          { label = "at the height " <> Decimal.mm down,
-            message =
-              [ "The tool comes down to this height first. The clearance height is "
-                  <> Decimal.mm (maximum heights)
-                  <> "."
-              ],
-            hints = ["Give the start a height, as in ‘from (0, 0, 20)’."]
-          }
-      ]
-  _ -> []
-  where
-    down = Frame.height machine (landingOf program)
-
 -- | Error of a rapid move whose axes arrive one after the other, where only the straight line is
 -- free.
 boxError :: Machine -> Region -> Report
 boxError machine asked =
-  (at asked "E0516" "a rapid move whose axes may arrive one after the other")
-    { label = "this move",
-      message =
+  (at asked "E0516" "the axes of this rapid move may arrive one after the other")
+    { message =
         [ machineName machine
-            <> " does not move along a straight line in rapid. Only z alone, x alone, y alone, and x \
-               \and y together at the clearance height or above it are safe."
+            <> " does not move along a straight line in rapid, so the tool may hit a clamp or the \
+               \part. Safe are moves of one axis alone, and of x and y together at the clearance \
+               \height or above it."
         ],
       hints =
         [ "Divide it: z alone, then x alone, then y alone.",

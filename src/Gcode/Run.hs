@@ -123,7 +123,7 @@ runBlock form now b = do
   dwelt <- dwellOf form s
   (moved, motionSteps) <- motionOf form s running
   let stopSteps =
-        [stop' | 0 <- mCodes s, let stop' = step moved Stops]
+        [step moved Stops | 0 <- mCodes s]
           <> [step moved StopsOnDemand | 10 <- mCodes s]
           <> [step moved Ends | m <- mCodes s, m `elem` [20, 300]]
       ended = isEnded moved || any (`elem` [20, 300]) (mCodes s)
@@ -191,7 +191,9 @@ modesBefore s m = do
   where
     n = lineNumber (block s)
     choose = chosen n (gCodes s)
-    whole k = maybe (faultAt (block s) 1 (BadNumber "T")) Right (isWhole k)
+    whole k = case isWhole k of
+      Just t | t >= 0 -> Right t
+      _ -> faultAt (block s) 1 (BadNumber "T")
 
 -- | Value of a number as a floating-point number.
 decimal :: Number -> Double
@@ -307,7 +309,8 @@ picometres n = fromIntegral n / 1.0e9
 dwellOf :: ProgramForm -> Sorted -> Either Fault (Maybe Seconds)
 dwellOf form s
   | 40 `notElem` gCodes s = Right Nothing
-  | Just p <- given 'P' s, digits p >= 0 = Right (Just (Seconds (decimal p * perUnit)))
+  | Just p <- given 'P' s, digits p < 0 = faultAt (block s) 1 (BadNumber "P")
+  | Just p <- given 'P' s = Right (Just (Seconds (decimal p * perUnit)))
   | Just p <- given 'S' s, dialect form == Marlin = Right (Just (Seconds (decimal p)))
   | Just x <- given 'X' s, dialect form == Fanuc = Right (Just (Seconds (decimal x)))
   | otherwise = faultAt (block s) 1 (WordMissing "P" "G4")

@@ -61,8 +61,8 @@ data Converting = Converting
     lost :: Double
   }
 
--- | Frames of the actions of a file. @level@ is the height in pulses from which on the tool is above
--- everything; Nothing if no height in work coordinates is. @start@ is the position of the program
+-- | Frames of the actions of a file. @level@ is the height in pulses from which on the tool is
+-- above everything; Nothing if no height in work coordinates is. @start@ is the position of the program
 -- before its first frame, and @first@ the number of the tool that the program has loaded then.
 reading :: Machine -> Maybe Pulses -> Maybe Int -> Pulses3 -> [Step] -> Reading
 reading machine level first start list =

@@ -289,8 +289,8 @@ retractLines context@Context {form, heading} = case retract form of
 toolLines :: Context -> Maybe Int -> [Text]
 toolLines Context {form} tool =
   [ line
-    | n <- maybeToList tool,
-      ProgramForm.changesTools (dialect form),
+    | ProgramForm.changesTools (dialect form),
+      n <- maybeToList tool,
       line <-
         [ "G53 G0 X" <> Decimal.short 3 x <> " Y" <> Decimal.short 3 y
           | (Mm x, Mm y) <- maybeToList (changePlace form)
@@ -355,9 +355,10 @@ actionsOf machine f = go (commands f) candidates
     numberIn w left = case lookup (commandName w) left of
       Just n | value w == Fixed n || value w == Argument -> Just (commandName w, n)
       _ -> Nothing
-    argumentOf ws found = case [n | w <- ws, value w == Argument, Just n <- [lookup (commandName w) found]] of
-      n : _ -> n
-      [] -> 0
+    argumentOf ws found = fromMaybe 0 (listToMaybe (mapMaybe (argumentIn found) ws))
+    argumentIn found w
+      | value w == Argument = lookup (commandName w) found
+      | otherwise = Nothing
 
 -- | Lines of commands.
 actionLines :: Context -> Writing -> [ControlAction] -> (Writing, [Text])
@@ -403,10 +404,11 @@ motionLines context@Context {machine} now f
     down
       | isAway now =
         ["M8" | isCoolantPaused now]
-          <> [ rapidWord <> Text.unwords (mapMaybe (axisText machine (at now)) [X, Y]) <> feedOfRapid,
-               rapidWord <> fromMaybe "" (axisText machine (at now) Z) <> feedOfRapid
+          <> [ rapidWord <> Text.unwords (mapMaybe axisHere [X, Y]) <> feedOfRapid,
+               rapidWord <> fromMaybe "" (axisHere Z) <> feedOfRapid
              ]
       | otherwise = []
+    axisHere = axisText machine (at now)
     rapidWord = "G0 "
     feedOfRapid = rapidFeed context
     end = at now + increment f

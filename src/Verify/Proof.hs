@@ -35,7 +35,7 @@ import Machine.Machine (CommandName (..), FeedCode (..), Machine, RotaryAxis)
 import Machine.Machine qualified as Machine
 import Report.Report (Report (hints, label, message), ReportPlace (..), report)
 import Report.Report qualified as Report
-import Verify.ControlState (ControlFinding)
+import Verify.ControlFault (ControlFinding)
 
 -- | Witness of a deviation from the part: how large the deviation is, and where.
 data Witness = Witness

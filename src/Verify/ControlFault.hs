@@ -1,0 +1,346 @@
+-- | Faults of the state of a modern control, and their reports. "Verify.ControlState" finds them.
+module Verify.ControlFault
+  ( ControlFinding (..),
+    ControlFault (..),
+    ControlMode (..),
+    toReport,
+  )
+where
+
+import Base.Decimal qualified as Decimal
+import Base.Quantity (Mm (..))
+import Base.Region (Region)
+import Data.Maybe (isNothing)
+import Data.Text (Text)
+import Machine.ProgramForm (ProgramForm (..), Retract (..))
+import Report.Report (Report (hints, label, message, others), ReportCode, ReportPlace (..), report)
+import Report.Report qualified as Report
+
+-- | Fault of the state at a line, and the line that set the wrong value; Nothing if none did.
+data ControlFinding = ControlFinding
+  { atLine :: Int,
+    setAt :: Maybe Int,
+    fault :: ControlFault
+  }
+  deriving stock (Eq, Show)
+
+data ControlFault
+  = -- | the spindle is off, or no line starts it
+    SpindleOff
+  | -- | the spindle has no speed: no line sets one, or it is 0
+    NoSpeed
+  | -- | no line takes the length of a tool
+    LengthNotTaken
+  | -- | G49: the control takes no length into account
+    LengthOff
+  | -- | M6: the control keeps the length of the tool before
+    LengthOfToolBefore
+  | -- | the length is that of another tool: the number of the length, the number of the tool
+    LengthOfAnother Int (Maybe Int)
+  | -- | the plane is another one, or no line selects one
+    WrongPlane
+  | -- | no line sets the units
+    UnitsUnknown
+  | -- | no line sets a mode
+    ModeUnknown ControlMode
+  | -- | words of X are diameters
+    XInDiameters
+  | -- | the feed is per turn or the inverse of a time
+    NotPerMinute
+  | -- | the work offset that the program asks for, and that of the file; Nothing if it selects none
+    WrongOffset Int (Maybe Int)
+  | -- | the control may leave the path by any distance
+    NoBound
+  | -- | no line sets the path mode
+    PathModeUnknown
+  | -- | x or y moves while the tool is not above everything
+    UnsafeMove
+  | -- | a rapid move of several axes, which may arrive one after the other, below the clearance
+    -- height or together with z
+    BoxMove
+  | -- | z goes down before x and y have a position in work coordinates
+    UnsafeDescent
+  deriving stock (Eq, Ord, Show)
+
+-- | Mode in which the control reads numbers, or computes the path.
+data ControlMode
+  = -- | positions: absolute or incremental
+    DistanceMode
+  | -- | words of X: radii or diameters
+    DiameterMode
+  | -- | cutter compensation by the control
+    CompensationMode
+  | -- | unit of the feed: per minute, per turn or the inverse of a time
+    FeedUnit
+  | -- | I and J: from the beginning of the arc or from the work zero
+    ArcCentreMode
+  deriving stock (Eq, Ord, Show)
+
+-- | Words of a report: its title, the label at the motion, the label at the line that set the wrong
+-- value, the reason and the remedy.
+data Wording = Wording
+  { title :: Text,
+    here :: Text,
+    there :: Text,
+    reason :: Text,
+    remedy :: Text
+  }
+
+-- | Report of a finding. @lineRegion@ gives the region of a line of the file.
+toReport :: ProgramForm -> (Int -> Region) -> ControlFinding -> Report
+toReport form lineRegion (ControlFinding n set f) =
+  (report Report.Error (codeOf f) (InSource (lineRegion n)) (title words'))
+    { label = here words',
+      others = [Report.Label (lineRegion k) (there words') | Just k <- [set], k /= n],
+      message = [reason words'],
+      hints = [remedy words']
+    }
+  where
+    words' = wordsOf form (isNothing set) f
+
+codeOf :: ControlFault -> ReportCode
+codeOf f = case f of
+  SpindleOff -> "E0723"
+  NoSpeed -> "E0724"
+  LengthNotTaken -> "E0725"
+  LengthOff -> "E0725"
+  LengthOfToolBefore -> "E0725"
+  LengthOfAnother _ _ -> "E0726"
+  WrongPlane -> "E0727"
+  UnitsUnknown -> "E0728"
+  ModeUnknown _ -> "E0729"
+  XInDiameters -> "E0729"
+  NotPerMinute -> "E0729"
+  WrongOffset _ _ -> "E0730"
+  NoBound -> "E0731"
+  PathModeUnknown -> "E0731"
+  UnsafeMove -> "E0732"
+  UnsafeDescent -> "E0732"
+  BoxMove -> "E0734"
+
+-- | Words for a fault. @isUnset@ is true if no line has set the value.
+wordsOf :: ProgramForm -> Bool -> ControlFault -> Wording
+wordsOf form isUnset f = case f of
+  SpindleOff -> spindleOff isUnset
+  NoSpeed -> noSpeed isUnset
+  LengthNotTaken ->
+    withoutLength "" (kept "tool length" <> " It may be that of another tool.")
+  LengthOff ->
+    withoutLength "no length from here on" "G49 takes no length into account."
+  LengthOfToolBefore ->
+    withoutLength
+      "the tool is changed here"
+      "After M6 the control keeps the length of the tool before."
+  LengthOfAnother h tool -> lengthOfAnother h tool
+  WrongPlane -> wrongPlane isUnset
+  UnitsUnknown ->
+    Wording
+      { title = "no line sets the units of the numbers",
+        here = descends,
+        there = "",
+        reason = kept "units",
+        remedy = "Write G21 for mm or G20 for inches before the first motion."
+      }
+  ModeUnknown mode -> modeUnknown mode
+  XInDiameters ->
+    wrongMode
+      descends
+      "X gives diameters here"
+      "The positions of the program are not diameters."
+      "G8"
+  NotPerMinute ->
+    wrongMode cuts "the feed is not per minute" "The feeds of the program are per minute." "G94"
+  WrongOffset wanted found -> wrongOffset wanted found
+  NoBound -> noBound
+  PathModeUnknown -> pathModeUnknown
+  UnsafeMove -> unsafe "the tool moves across without being above everything" form
+  UnsafeDescent -> unsafe "the tool comes down at an unknown place" form
+  BoxMove -> boxMove
+
+-- | Labels of motions.
+cuts, descends :: Text
+cuts = "this motion cuts"
+descends = "the tool comes down or cuts here"
+
+-- | Sentence about a value that no line sets.
+kept :: Text -> Text
+kept what = "The control keeps the " <> what <> " of the program that it ran before."
+
+spindleOff :: Bool -> Wording
+spindleOff isUnset =
+  Wording
+    { title = "the spindle is off at this cut",
+      here = cuts,
+      there = "the spindle stops here",
+      reason =
+        if isUnset
+          then "No line before it starts the spindle."
+          else "M5 stops the spindle, and so does M6.",
+      remedy = "Write the speed and M3 or M4 before the cut, as in S8000 M3."
+    }
+
+noSpeed :: Bool -> Wording
+noSpeed isUnset =
+  Wording
+    { title = "the spindle has no speed at this cut",
+      here = cuts,
+      there = "the speed is 0 from here on",
+      reason =
+        if isUnset
+          then kept "spindle speed"
+          else "At the speed 0 the spindle does not turn.",
+      remedy = "Write the speed before the cut, as in S8000 M3."
+    }
+
+-- | Words for a length that is not taken, with the label of its line and the reason.
+withoutLength :: Text -> Text -> Wording
+withoutLength there reason =
+  Wording
+    { title = "the length of the tool is not taken",
+      here = descends,
+      there,
+      reason,
+      remedy = "Write G43 H with the number of the tool before the tool comes down."
+    }
+
+lengthOfAnother :: Int -> Maybe Int -> Wording
+lengthOfAnother h tool =
+  Wording
+    { title = "the length is that of another tool",
+      here = descends,
+      there = "this length is taken",
+      reason =
+        "The length is that of tool " <> Decimal.whole h <> case tool of
+          Just t -> ", but tool " <> Decimal.whole t <> " is in the spindle."
+          Nothing -> ", but no line says which tool is in the spindle.",
+      remedy = case tool of
+        Just t -> "Write G43 H" <> Decimal.whole t <> " after the change of the tool."
+        Nothing -> "Write T" <> Decimal.whole h <> " M6 before it."
+    }
+
+wrongPlane :: Bool -> Wording
+wrongPlane isUnset =
+  Wording
+    { title =
+        if isUnset then "no line selects the plane of this cut" else "this cut is in another plane",
+      here = cuts,
+      there = "another plane from here on",
+      reason =
+        if isUnset
+          then kept "plane"
+          else "The arcs of the part are in the plane of x and y.",
+      remedy = "Write G17 before the cut."
+    }
+
+-- | Words for a mode that no line sets.
+modeUnknown :: ControlMode -> Wording
+modeUnknown mode =
+  Wording
+    { title = "no line says " <> question,
+      here = if mode == FeedUnit || mode == ArcCentreMode then cuts else descends,
+      there = "",
+      reason = kept "mode",
+      remedy
+    }
+  where
+    (question, remedy) = modeWords mode
+
+-- | The question that no line answers, and the remedy.
+modeWords :: ControlMode -> (Text, Text)
+modeWords mode = case mode of
+  DistanceMode ->
+    ( "whether positions are absolute or incremental",
+      "Write G90 for absolute or G91 for incremental positions before this motion."
+    )
+  DiameterMode -> ("whether X gives radii or diameters", "Write G8 before this motion.")
+  CompensationMode -> ("that cutter compensation is off", "Write G40 before this motion.")
+  FeedUnit -> ("in what unit the feed is", "Write G94 before the cut.")
+  ArcCentreMode ->
+    ( "from where I and J are counted",
+      "Write G91.1 before the arc: I and J then lead from its beginning to its centre."
+    )
+
+-- | Words for a mode that a line sets wrongly, with the word that sets it right.
+wrongMode :: Text -> Text -> Text -> Text -> Wording
+wrongMode here title reason word =
+  Wording
+    { title,
+      here,
+      there = "another mode from here on",
+      reason,
+      remedy = "Write " <> word <> " before this motion."
+    }
+
+wrongOffset :: Int -> Maybe Int -> Wording
+wrongOffset wanted found =
+  Wording
+    { title = case found of
+        Nothing -> "no line selects the work offset"
+        Just _ -> "the work offset is not that of the program",
+      here = descends,
+      there = "another work offset from here on",
+      reason = case found of
+        Nothing -> kept "work offset" <> " This program needs G" <> Decimal.whole wanted <> "."
+        Just n ->
+          "The program needs G"
+            <> Decimal.whole wanted
+            <> ", and the file has G"
+            <> Decimal.whole n
+            <> ".",
+      remedy =
+        "Write G" <> Decimal.whole wanted <> " before the tool comes down" <> case found of
+          Nothing -> "."
+          Just n -> ", or ‘work " <> Decimal.whole n <> "’ in the program."
+    }
+
+noBound :: Wording
+noBound =
+  Wording
+    { title = "the control may round corners here by any distance",
+      here = cuts,
+      there = "this path mode",
+      reason = "G64 without P, or with P0, has no bound.",
+      remedy = pathRemedy
+    }
+
+pathModeUnknown :: Wording
+pathModeUnknown =
+  Wording
+    { title = "no line says how far the control may round corners",
+      here = cuts,
+      there = "",
+      reason = kept "path mode",
+      remedy = pathRemedy
+    }
+
+pathRemedy :: Text
+pathRemedy = "Write the largest deviation, as in G64 P0.02 Q0, or write G61 for the exact path."
+
+-- | Words for a motion that may hit something.
+unsafe :: Text -> ProgramForm -> Wording
+unsafe title form =
+  Wording
+    { title,
+      here = "",
+      there = "",
+      reason = "It may hit a clamp or the part: where the tool comes from is not known.",
+      remedy = case retract form of
+        MachineHeight (Mm h) ->
+          "Move z alone first, by G53 G0 Z" <> Decimal.short 3 h <> ", then x and y, then z."
+        ReferencePoint -> "Move z alone first, by G91 G28 Z0, then x and y, then z."
+        SafeHeight ->
+          "Move z alone first, up to the safe height of the program, then x and y, then z."
+    }
+
+boxMove :: Wording
+boxMove =
+  Wording
+    { title = "the axes of this rapid move may arrive one after the other",
+      here = "",
+      there = "",
+      reason =
+        "In rapid this control does not move along a straight line, so the tool may hit a clamp or \
+        \the part.",
+      remedy =
+        "Move one axis alone, or x and y together at the clearance height or above it."
+    }
