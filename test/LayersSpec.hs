@@ -139,7 +139,7 @@ stageData =
       ),
       ("Frame.Frame", []),
       ("Tape.Tape", []),
-      ("Verify.Proof", [])
+      ("Verify.Proof", ["Verify.ControlFault"])
     ]
 
 -- The check ---------------------------------------------------------------------------------
@@ -289,6 +289,7 @@ spec = do
                 "Machine",
                 "Frame",
                 "Tape",
+                "Gcode",
                 "Control",
                 "Pulse",
                 "Verify",

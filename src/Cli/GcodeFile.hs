@@ -14,6 +14,7 @@ import Base.Region qualified as Region
 import Compile (Compiled, Punched (..))
 import Compile qualified
 import Data.IntMap.Strict qualified as IntMap
+import Data.Maybe (fromMaybe)
 import Data.Text (Text)
 import Data.Text qualified as Text
 import Draw.TapeRows (RowRange (..))
@@ -24,7 +25,7 @@ import Gcode.Run qualified as Run
 import Gcode.ToFrames (ReadFrame (..), Reading (..))
 import Gcode.ToFrames qualified as ToFrames
 import Machine.Machine (Machine, ProgramForm)
-import Report.Report (Label (..), Report (others))
+import Report.Report (Label (..), Report (others, place), ReportPlace (..))
 import Verify.FromGcode qualified as FromGcode
 import Verify.Proof (Proof)
 import Verify.Proof qualified as Proof
@@ -109,21 +110,29 @@ reports ::
   ProgramForm -> Compiled -> [GcodeFile] -> Source -> Reading -> Proof -> (Source, [Report])
 reports form compiled gcode source reading proof =
   ( foldl (\s f -> Region.addFile (fileName f) (fileText f) s) source gcode,
-    zipWith withLine places (Compile.gcodeReports (Compile.machine compiled) form lineRegion proof)
+    zipWith withLine frames (Compile.gcodeReports (Compile.machine compiled) form lineRegion proof)
   )
   where
     bases = scanl (\at f -> at + Text.length (fileText f) + 1) (Region.nextOffset source) gcode
     lineRegion n =
       let (index, file, before) = fileOfLine gcode n
        in regionFrom (fileText file) (bases !! index) (n - before) 1
-    places =
+    frames =
       map (const Nothing) (Proof.controlFindings proof)
         <> map Proof.frameOf (Proof.findings proof)
-    withLine place report = case place of
-      Just n
-        | Just k <- FromGcode.lineOfFrame reading n ->
-          report {others = others report <> [Label (lineRegion k) ("frame " <> Decimal.whole n)]}
-      _ -> report
+    withLine frame report = case FromGcode.lineOfFrame reading (fromMaybe lastFrame frame) of
+      Nothing -> report
+      Just k -> atLine frame (lineRegion k) report
+    lastFrame = length (FromGcode.framesRead reading)
+
+-- | Report with the region of a line: as its place, or beside a place in the program with the
+-- number of the frame.
+atLine :: Maybe Int -> Region -> Report -> Report
+atLine frame region report = case (place report, frame) of
+  (InFile, _) -> report {place = InSource region}
+  (InSource _, Just n) ->
+    report {others = others report <> [Label region ("frame " <> Decimal.whole n)]}
+  _ -> report
 
 -- | Region of a line from a column on, both counted from 1. The text begins at an offset.
 regionFrom :: Text -> Int -> Int -> Int -> Region

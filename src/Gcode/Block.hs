@@ -74,8 +74,10 @@ data FaultReason
     WordMissing Text Text
   | -- | a word that no other word of the line uses
     UnusedWord Text
-  | -- | a number out of its range
-    BadNumber Text
+  | -- | a number that should be whole, of this word
+    NotWhole Text
+  | -- | a number that should not be negative, of this word
+    NegativeNumber Text
   | -- | a distance word before any kind of motion is chosen
     NoMotionMode
   | -- | a position that depends on where the machine stands

@@ -53,7 +53,7 @@ wordsOf reason = case reason of
       ["Remove one of the two words, or write two lines."]
     )
   WordMissing w by ->
-    ( by <> " needs " <> w,
+    ( by <> " needs the word " <> w,
       ["The control would refuse the line."],
       ["Write " <> w <> " in this line."]
     )
@@ -62,7 +62,8 @@ wordsOf reason = case reason of
       ["The control would refuse the line, or ignore the word."],
       ["Remove " <> w <> ", or write the word to which it belongs."]
     )
-  BadNumber w -> badNumber w
+  NotWhole w -> ("the number of " <> w <> " is not whole", [], ["Write a whole number."])
+  NegativeNumber w -> ("the number of " <> w <> " is negative", [], ["Write 0 or more."])
   NoMotionMode ->
     ( "no line says how to move to this position",
       ["G0 is a rapid move, G1 a straight cut, G2 and G3 are arcs."],
@@ -92,13 +93,6 @@ noExpressions :: Text
 noExpressions =
   "Only words such as X10.5, and comments, are read. Parameters, expressions and loops are not, \
   \because the motions would not be certain."
-
-badNumber :: Text -> (Text, [Text], [Text])
-badNumber w =
-  ( "the number of " <> w <> " is not possible",
-    ["The number of a tool is whole; the time of a dwell is not negative."],
-    ["Correct the number."]
-  )
 
 badArc :: (Text, [Text], [Text])
 badArc =

@@ -192,8 +192,10 @@ modesBefore s m = do
     n = lineNumber (block s)
     choose = chosen n (gCodes s)
     whole k = case isWhole k of
-      Just t | t >= 0 -> Right t
-      _ -> faultAt (block s) 1 (BadNumber "T")
+      Just t
+        | t >= 0 -> Right t
+        | otherwise -> faultAt (block s) 1 (NegativeNumber "T")
+      Nothing -> faultAt (block s) 1 (NotWhole "T")
 
 -- | Value of a number as a floating-point number.
 decimal :: Number -> Double
@@ -309,7 +311,7 @@ picometres n = fromIntegral n / 1.0e9
 dwellOf :: ProgramForm -> Sorted -> Either Fault (Maybe Seconds)
 dwellOf form s
   | 40 `notElem` gCodes s = Right Nothing
-  | Just p <- given 'P' s, digits p < 0 = faultAt (block s) 1 (BadNumber "P")
+  | Just p <- given 'P' s, digits p < 0 = faultAt (block s) 1 (NegativeNumber "P")
   | Just p <- given 'P' s = Right (Just (Seconds (decimal p * perUnit)))
   | Just p <- given 'S' s, dialect form == Marlin = Right (Just (Seconds (decimal p)))
   | Just x <- given 'X' s, dialect form == Fanuc = Right (Just (Seconds (decimal x)))

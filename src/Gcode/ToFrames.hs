@@ -208,7 +208,7 @@ frameOf machine step travel begin target = case mode travel of
   LinearMode -> plain {motion = Linear, feedCode}
   ArcMode sense
     | Just c <- about travel,
-      valueOf (plane (state step)) == Just (planeOf machine) ->
+      maybe True (== planeOf machine) (valueOf (plane (state step))) ->
       plain {motion = Circular sense, feedCode, centre = centreFrom c}
     -- An arc in another plane is a finding of its own.
     | otherwise -> plain {motion = Linear, feedCode}

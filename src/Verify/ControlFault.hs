@@ -3,6 +3,7 @@ module Verify.ControlFault
   ( ControlFinding (..),
     ControlFault (..),
     ControlMode (..),
+    changesReading,
     toReport,
   )
 where
@@ -75,6 +76,28 @@ data ControlMode
   | -- | I and J: from the beginning of the arc or from the work zero
     ArcCentreMode
   deriving stock (Eq, Ord, Show)
+
+-- | Test that numbers of the file mean something else because of a fault, so that the motions or
+-- the feeds that are read are not those of the control.
+changesReading :: ControlFault -> Bool
+changesReading f = case f of
+  SpindleOff -> False
+  NoSpeed -> False
+  LengthNotTaken -> False
+  LengthOff -> False
+  LengthOfToolBefore -> False
+  LengthOfAnother _ _ -> False
+  WrongPlane -> True
+  UnitsUnknown -> True
+  ModeUnknown _ -> True
+  XInDiameters -> True
+  NotPerMinute -> True
+  WrongOffset _ _ -> False
+  NoBound -> False
+  PathModeUnknown -> False
+  UnsafeMove -> False
+  UnsafeDescent -> False
+  BoxMove -> False
 
 -- | Words of a report: its title, the label at the motion, the label at the line that set the wrong
 -- value, the reason and the remedy.
@@ -153,8 +176,8 @@ wordsOf form isUnset f = case f of
   WrongOffset wanted found -> wrongOffset wanted found
   NoBound -> noBound
   PathModeUnknown -> pathModeUnknown
-  UnsafeMove -> unsafe "the tool moves across without being above everything" form
-  UnsafeDescent -> unsafe "the tool comes down at an unknown place" form
+  UnsafeMove -> unsafeMove form
+  UnsafeDescent -> unsafeDescent form
   BoxMove -> boxMove
 
 -- | Labels of motions.
@@ -171,7 +194,7 @@ spindleOff isUnset =
   Wording
     { title = "the spindle is off at this cut",
       here = cuts,
-      there = "the spindle stops here",
+      there = "the spindle is off from here on",
       reason =
         if isUnset
           then "No line before it starts the spindle."
@@ -222,7 +245,7 @@ wrongPlane :: Bool -> Wording
 wrongPlane isUnset =
   Wording
     { title =
-        if isUnset then "no line selects the plane of this cut" else "this cut is in another plane",
+        if isUnset then "no line selects the plane of this cut" else "this cut is in another plane than the part",
       here = cuts,
       there = "another plane from here on",
       reason =
@@ -316,14 +339,26 @@ pathModeUnknown =
 pathRemedy :: Text
 pathRemedy = "Write the largest deviation, as in G64 P0.02 Q0, or write G61 for the exact path."
 
--- | Words for a motion that may hit something.
-unsafe :: Text -> ProgramForm -> Wording
-unsafe title form =
+unsafeMove :: ProgramForm -> Wording
+unsafeMove =
+  unsafe
+    "the tool moves across, but not at the retract height"
+    "It may hit a clamp or the part on its way."
+
+unsafeDescent :: ProgramForm -> Wording
+unsafeDescent =
+  unsafe
+    "the tool comes down at an unknown place"
+    "No line gives its position in x and y, so it may hit a clamp or the part."
+
+-- | Words for a motion that may hit something, with its title and the reason.
+unsafe :: Text -> Text -> ProgramForm -> Wording
+unsafe title reason form =
   Wording
     { title,
       here = "",
       there = "",
-      reason = "It may hit a clamp or the part: where the tool comes from is not known.",
+      reason,
       remedy = case retract form of
         MachineHeight (Mm h) ->
           "Move z alone first, by G53 G0 Z" <> Decimal.short 3 h <> ", then x and y, then z."

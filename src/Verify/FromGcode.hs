@@ -28,6 +28,7 @@ import Machine.Machine (Machine, ProgramForm (..))
 import Machine.Machine qualified as Machine
 import Machine.ProgramForm (RapidPath (..), Retract (..))
 import Machine.ProgramForm qualified as ProgramForm
+import Verify.ControlFault qualified as ControlFault
 import Verify.ControlState (StateDemand (..))
 import Verify.ControlState qualified as ControlState
 import Verify.Proof (ContourProof (..), Finding (LeavesPath), Proof (..), Witness (amount))
@@ -121,15 +122,22 @@ blendingBound machine proof = case mapMaybe left (contourProofs proof) of
         n = floor (d * 1000 + 1.0e-6) :: Int
 
 -- | Judges the state of the control in all actions of a file. @proof@ is that of the path. What the
--- control may leave the path by is added to all deviations.
+-- control may leave the path by is added to all deviations. If the control reads the numbers of the
+-- file in another way than the program means them, the findings of the path are left out: they
+-- would only follow from that.
 judged :: Machine -> ProgramForm -> Heading -> FrameProgram -> Reading -> Proof -> Proof
 judged machine form heading program reading proof =
   proof
     { contourProofs = map farther (contourProofs proof),
-      findings = findings proof <> mapMaybe tooFar (contourProofs proof),
-      controlFindings = ControlState.findings form (demandOf machine form heading program) (steps reading)
+      findings =
+        if any (ControlFault.changesReading . ControlFault.fault) controlFindings
+          then []
+          else findings proof <> mapMaybe tooFar (contourProofs proof),
+      controlFindings
     }
   where
+    demand = demandOf machine form heading program
+    controlFindings = ControlState.findings form demand (steps reading)
     p = plus (ControlState.largestBlending (steps reading)) (offGrid reading)
     farther c = c {gouge = further <$> gouge c, excess = further <$> excess c}
     further w = w {amount = plus (amount w) p}
