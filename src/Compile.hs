@@ -80,7 +80,6 @@ import Report.Report (Report (code, others, place), ReportPlace (..))
 import Report.Report qualified as Report
 import Surface.Error qualified as Surface
 import Surface.Parameter qualified as Surface
-import Surface.Syntax qualified as Surface
 import Tape.Punch qualified as Tape
 import Tape.Tape (Tape)
 import Toolpath.Error qualified as Toolpath
@@ -120,7 +119,7 @@ evaluate values loaded = do
     ( BareNumber.besideInches
         fileOf
         (BareNumber.typesOfNames (Checked.mentions checked))
-        (Surface.statements written)
+        written
     )
   (checked,) <$> mapErrors id (located . partReport) (Part.evaluate checked)
   where

@@ -8,13 +8,14 @@ module Base.Decimal
     Leading (..),
     leading,
     whole,
+    unitText,
     mm,
     nonZeroMm,
     distinctMm,
   )
 where
 
-import Base.Quantity (Mm (..))
+import Base.Quantity (LengthUnit (..), Mm (..))
 import Data.Char (digitToInt, isDigit)
 import Data.Maybe (fromMaybe)
 import Data.Ratio ((%))
@@ -144,6 +145,12 @@ mostDigits = 40
 -- | A whole number as text.
 whole :: Int -> Text
 whole = Text.pack . show
+
+-- | The name of a unit in programs and reports.
+unitText :: LengthUnit -> Text
+unitText unit = case unit of
+  Millimetres -> "mm"
+  Inches -> "in"
 
 -- | The text of a length for a report: at most four decimals, and the unit.
 mm :: Mm -> Text

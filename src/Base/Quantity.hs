@@ -11,6 +11,8 @@ module Base.Quantity
     Feed (..),
     Seconds (..),
     Pulses (..),
+    LengthUnit (..),
+    millimetresIn,
     plus,
     minus,
     times,
@@ -48,6 +50,16 @@ newtype Seconds = Seconds Double
 newtype Pulses = Pulses Int
   deriving newtype (Eq, Ord, Num, Enum, Real, Integral)
   deriving stock (Show)
+
+-- | A unit in which people write and read lengths.
+data LengthUnit = Millimetres | Inches
+  deriving stock (Eq, Ord, Show, Enum, Bounded)
+
+-- | The length of a unit in millimetres. An inch is exactly 25.4 mm.
+millimetresIn :: LengthUnit -> Double
+millimetresIn unit = case unit of
+  Millimetres -> 1
+  Inches -> 25.4
 
 -- | The sum of two quantities.
 plus :: Coercible q Double => q -> q -> q

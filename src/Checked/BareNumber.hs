@@ -26,6 +26,7 @@ import Data.Text qualified as Text
 import Report.Fix qualified as Fix
 import Report.Report (Label (Label), Report (fixes, others), ReportPlace (InSource), report)
 import Report.Report qualified as Report
+import Surface.FileUnit qualified as FileUnit
 import Surface.Syntax
 import Surface.SyntaxWalk qualified as SyntaxWalk
 import Surface.Token (Unit (InPerMin, Inch))
@@ -48,20 +49,25 @@ bareNumbers typeAt s = case value s of
   _ -> concat [bare t e | (t, e) <- typedExpressions s]
 
 -- | Warnings about numbers without a unit that are taken for mm or mm/min, in files that give other
--- numbers in inches: one for each file, at the first such number. A number 0 is the same in every
--- unit. @fileOf@ is the file of a region, and @typeAt@ is the result of 'typesOfNames'.
-besideInches :: Ord file => (Region -> file) -> Map Region Type -> [Statement] -> [Report]
+-- numbers in inches: one for each file, at the first such number. Files that give their unit have
+-- none. A number 0 is the same in every unit. @fileOf@ is the file of a region, and @typeAt@ is the
+-- result of 'typesOfNames'.
+besideInches :: Ord file => (Region -> file) -> Map Region Type -> Program -> [Report]
 besideInches fileOf typeAt program
   | null inches = []
   | otherwise =
-    Map.elems (Map.intersectionWith warning (byFile region numbers) (byFile id inches))
+    Map.elems (Map.intersectionWith warned (byFile region numbers) (byFile id inches))
   where
-    statements' = concatMap SyntaxWalk.statementsIn program
+    warned found@(Located at _ :| _)
+      | fileOf at == fileOf (Region 0 0) = warning (unitsPlace program) found
+      | otherwise = warning Nothing found
+    statements' = concatMap SyntaxWalk.statementsIn (statements program)
     numbers =
       [ Located at (BareNumber digits t)
         | s <- statements',
           (Located at (Literal Numeral {digits, amount} Nothing), t) <- bareNumbers typeAt s,
           amount /= 0,
+          not (FileUnit.isGivenAt program at),
           t == Type.len || t == Type.feed
       ]
     inches =
@@ -79,10 +85,18 @@ besideInches fileOf typeAt program
 -- | A length or a feed without a unit: its digits and its type.
 data BareNumber = BareNumber Text Type
 
+-- | The offset in the program's own file at which a @units@ statement belongs.
+unitsPlace :: Program -> Maybe Int
+unitsPlace program = case statements program of
+  Located _ (Part _ _) : below : _ -> Just (start (region below))
+  Located _ (Part _ _) : _ -> Nothing
+  first : _ -> Just (start (region first))
+  [] -> Nothing
+
 -- | The warning about numbers of a file that are taken for mm or mm/min. @inches@ are the regions
--- of its numbers in inches.
-warning :: NonEmpty (Located BareNumber) -> NonEmpty Region -> Report
-warning numbers@(Located at (BareNumber digits t) :| more) (inch :| _) =
+-- of its numbers in inches. @place@ is the offset for a @units@ statement, if there is one.
+warning :: Maybe Int -> NonEmpty (Located BareNumber) -> NonEmpty Region -> Report
+warning place numbers@(Located at (BareNumber digits t) :| more) (inch :| _) =
   ( report
       Report.Warning
       "W0201"
@@ -92,15 +106,23 @@ warning numbers@(Located at (BareNumber digits t) :| more) (inch :| _) =
       )
   )
     { others = [Label inch "in inches"],
-      fixes = map written ["mm", "in"]
+      fixes = map written ["mm", "in"] <> concatMap stated ["mm", "in"]
     }
   where
+    stated unit =
+      [ Fix.proposed $
+          Fix.insertion
+            ("Write units " <> unit <> " below part.")
+            offset
+            ("units " <> unit <> "\n")
+        | Just offset <- [place]
+      ]
     written unit =
       Fix.proposed $
         Fix.joined
           (title unit)
-          [ Fix.insertion "" (end place) (" " <> unitOf unit t')
-            | Located place (BareNumber _ t') <- NonEmpty.toList numbers
+          [ Fix.insertion "" (end place') (" " <> unitOf unit t')
+            | Located place' (BareNumber _ t') <- NonEmpty.toList numbers
           ]
     title unit
       | null more = "Write its unit: " <> digits <> " " <> unitOf unit t <> "."

@@ -22,6 +22,7 @@ module Checked.Dimension
   )
 where
 
+import Base.Quantity (LengthUnit, millimetresIn)
 import Data.Map.Strict (Map)
 import Data.Map.Strict qualified as Map
 import Data.Text (Text)
@@ -146,9 +147,13 @@ unitWord (Dimension m) = case (factors (> 0), factors (< 0)) of
       PointWeight -> "point"
       Unknown _ -> ""
 
--- | The factor for a number of dimension @d@ that the program writes without a unit. Such a number
--- is written in mm, minutes and degrees. The factor converts it to mm, minutes and radians.
-defaultUnit :: Dimension -> Double
-defaultUnit d = case exponent Angle d of
-  0 -> 1
-  n -> (pi / 180) ^^ n
+-- | The factor for a number of dimension @d@ that a file writes without a unit. Such a number is
+-- written in the unit of the file, in minutes and degrees. The factor converts it to mm, minutes
+-- and radians. An unknown counts as a plain number: where inference leaves it open which factor of
+-- a product has the dimension of a length, the product is the same in each case.
+defaultUnit :: LengthUnit -> Dimension -> Double
+defaultUnit unit d = raised Length (millimetresIn unit) * raised Angle (pi / 180)
+  where
+    raised a factor = case exponent a d of
+      0 -> 1
+      n -> factor ^^ n

@@ -19,6 +19,7 @@ module Checked.Expression
 where
 
 import Base.Name (Name (..))
+import Base.Quantity (LengthUnit)
 import Base.Region (Located (..), Region (..))
 import Checked.ArithmeticReport qualified as ArithmeticReport
 import Checked.Builtin (ArgumentLabel, Form (..))
@@ -76,7 +77,9 @@ data TypingEnvironment = TypingEnvironment
     definitions :: Map Name Region,
     -- | true if "Checked.Inference.Fast" checks literals and calls on literals, false if full
     -- inference checks them
-    isFast :: Bool
+    isFast :: Bool,
+    -- | the unit of numbers without a unit in the file at a region
+    unitAt :: Region -> LengthUnit
   }
 
 -- | The type of a term, and the checked term.
@@ -87,7 +90,7 @@ type Typed = (Type, Deferred Checked.Expr)
 -- | Checks an expression that must have the type @wanted@.
 expect :: TypingEnvironment -> Type -> Surface.Expr -> Infer (Deferred Checked.Expr)
 expect env wanted e = case (value e, wanted) of
-  _ | isFast env, Just e' <- FastInference.literal wanted e -> pure (const e')
+  _ | isFast env, Just e' <- FastInference.literal (unitAt env) wanted e -> pure (const e')
   (Surface.Pair x y, Type.Spatial d) | Dimension.isKnown d -> pair env (region e) x y
   _ -> do
     (t, e') <- infer env e
@@ -178,7 +181,8 @@ contourElement env sense e = case (sense, value e) of
 -- | Checks a call by "Checked.Inference.Fast". 'Nothing' if that module leaves the call to full
 -- inference, or if 'isFast' is false.
 fastCall :: TypingEnvironment -> Surface.Expr -> Infer (Maybe FastInference.FastCall)
-fastCall env e = if isFast env then FastInference.call (expect env) e else pure Nothing
+fastCall env e =
+  if isFast env then FastInference.call (unitAt env) (expect env) e else pure Nothing
 
 -- Expressions whose type is inferred
 
@@ -196,7 +200,7 @@ infer env e = case value e of
 inferred :: TypingEnvironment -> Surface.Expr -> Infer Typed
 inferred env located@(Located at e) = case e of
   Surface.Literal (Numeral _ x) unit -> do
-    (t, number) <- numberType x unit
+    (t, number) <- numberType (unitAt env at) x unit
     pure (t, Located at . Checked.Number . number)
   Surface.Variable name -> variable env at name
   Surface.Call name arguments -> do

@@ -48,6 +48,7 @@ import Data.Map.Strict qualified as Map
 import Data.Maybe (catMaybes, listToMaybe)
 import Data.Set qualified as Set
 import Data.Text (Text)
+import Surface.FileUnit qualified as FileUnit
 import Surface.Syntax (Statement)
 import Surface.Syntax qualified as Surface
 import Surface.SyntaxWalk qualified as SyntaxWalk
@@ -62,7 +63,7 @@ checkByInference :: Surface.Program -> Result w Error Program
 checkByInference = checkBy False
 
 checkBy :: Bool -> Surface.Program -> Result w Error Program
-checkBy isFast Surface.Program {Surface.statements = written} =
+checkBy isFast surface@Surface.Program {Surface.statements = written} =
   Result
     { warnings = [],
       errors =
@@ -77,7 +78,9 @@ checkBy isFast Surface.Program {Surface.statements = written} =
     (found, solution, checked, mentions) = inferred written
     inferred ss =
       Inference.run
-        (catMaybes <$> mapM (statement TypingEnvironment {definitions = definedIn ss, isFast}) ss)
+        (catMaybes <$> mapM (statement (environment ss)) ss)
+    environment ss =
+      TypingEnvironment {definitions = definedIn ss, isFast, unitAt = FileUnit.unitAt surface}
     mistakesOf ss = let (errors, _, _, _) = inferred ss in errors
     -- The geometry of a name of the wrong type would only make further errors.
     suspects = CallError.suspects written found
@@ -91,6 +94,7 @@ checkBy isFast Surface.Program {Surface.statements = written} =
         { name = listToMaybe [value n | Located _ (Surface.Part n _) <- written],
           title = listToMaybe [value t | Located _ (Surface.Part _ (Just t)) <- written],
           machine = listToMaybe [m | Located _ (Surface.Machine m) <- written],
+          unit = FileUnit.ofProgram surface,
           statements = filter (not . isLeftOut) (map ($ solution) checked),
           mentions
         }
@@ -130,6 +134,7 @@ definedIn statements =
 statement :: TypingEnvironment -> Statement -> Infer (Maybe (Deferred Checked.Statement))
 statement env (Located at s) = case s of
   Surface.Part n _ -> Nothing <$ mentionDefinition n (Inference.Described "the name of the part")
+  Surface.Units _ -> pure Nothing
   Surface.Machine _ -> pure Nothing
   Surface.Import _ -> pure Nothing
   Surface.Broken _ n ->

@@ -22,13 +22,14 @@ import Base.Name (Name (..))
 import Base.Name qualified as Name
 import Base.NumberTable (NumberTable)
 import Base.NumberTable qualified as NumberTable
+import Base.Quantity (LengthUnit)
 import Base.Region (Located (..), Region)
 import Checked.Builtin qualified as Builtin
 import Checked.Deferred (Deferred, resolveAll)
 import Checked.Dimension qualified as Dimension
 import Checked.Error (Error (..))
 import Checked.ErrorFix (unwritten)
-import Checked.Expression (TypingEnvironment, expect)
+import Checked.Expression (TypingEnvironment (unitAt), expect)
 import Checked.Inference (Infer)
 import Checked.Inference qualified as Inference
 import Checked.PieceError (PieceError (..))
@@ -65,7 +66,7 @@ table env name written = case written of
     unless (hasColumn "x" columns) (columnMissing at headings "x")
     unless (hasColumn "y" columns) (columnMissing at headings "y")
     rows' <- rowsOf env columns rows
-    pure (typeOfTable columns, columnsAndRows columns rows')
+    pure (typeOfTable columns, columnsAndRows (unitAt env (region name)) columns rows')
   Located _ Surface.BrokenLine : _ -> missing <$ Inference.taint
   first : _ -> missing <$ mistake (HeadingsMissing (region first) (cellCount (value first)))
   [] -> missing <$ mistake (HeadingsMissing (region name) 0)
@@ -143,15 +144,18 @@ isExtra = not . isCoordinate . value . heading
 
 -- | The columns besides x and y with their dimensions, and the rows in the order of the text. The
 -- argument @rows@ has them in reverse order. The cells of a row are put into the order x, y, other
--- columns.
-columnsAndRows :: [Column] -> [Row] -> Deferred Columns
-columnsAndRows columns rows sol =
+-- columns. @unit@ is the unit of the file that contains the @table@ statement; it also holds for
+-- the numbers of a table file.
+columnsAndRows :: LengthUnit -> [Column] -> [Row] -> Deferred Columns
+columnsAndRows unit columns rows sol =
   Columns
     [(value (heading c), sol (Type.dimensionOf (kind c))) | c <- columns, isExtra c]
     (resolveAll sol (map (cellsOf order sizes) (joinRows rows)))
   where
     sizes =
-      [fromMaybe (Dimension.defaultUnit (sol (Type.dimensionOf (kind c)))) (size c) | c <- columns]
+      [ fromMaybe (Dimension.defaultUnit unit (sol (Type.dimensionOf (kind c)))) (size c)
+        | c <- columns
+      ]
     numbered = zip [0 :: Int ..] columns
     order =
       [i | text <- ["x", "y"], (i, c) <- numbered, value (heading c) == Name text]

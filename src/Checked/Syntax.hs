@@ -53,6 +53,7 @@ where
 
 import Base.Name (Name)
 import Base.NumberTable (NumberTable)
+import Base.Quantity (LengthUnit)
 import Base.Region (Located, Region)
 import Checked.Dimension (Dimension)
 import Checked.Type (Type)
@@ -79,6 +80,8 @@ data Program = Program
   { name :: Maybe Name,
     title :: Maybe Text,
     machine :: Maybe (Located MachineRef),
+    -- | the unit in which reports about the program give lengths
+    unit :: LengthUnit,
     statements :: [Statement],
     -- | all mentions of names, in no particular order
     mentions :: [Mention]

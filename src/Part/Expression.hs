@@ -20,7 +20,7 @@ import Base.Crash (bug)
 import Base.Decimal qualified as Decimal
 import Base.Name (Name)
 import Base.NumberTable qualified as NumberTable
-import Base.Quantity (Mm (..))
+import Base.Quantity (LengthUnit (..), Mm (..))
 import Base.Region (Located (..), Region)
 import Checked.Dimension (Dimension)
 import Checked.Dimension qualified as Dimension
@@ -184,7 +184,7 @@ written :: Dimension -> Value -> Text
 written dimension v = case v of
   Quantity x ->
     let unit = Dimension.unitWord dimension
-     in Decimal.short 6 (x / Dimension.defaultUnit dimension)
+     in Decimal.short 6 (x / Dimension.defaultUnit Millimetres dimension)
           <> (if unit == "" then "" else " " <> unit)
   Spatial p -> Vec.toText 4 (Value.fromOrigin p)
   SpaceValue p (Mm z) -> Vec.toText 4 p <> " at height " <> Decimal.mm (Mm z)

@@ -8,6 +8,7 @@ where
 
 import Base.Decimal qualified as Decimal
 import Base.Name (Name)
+import Base.Quantity (LengthUnit)
 import Base.Region (Located (..), Region (..))
 import Checked.BareNumber qualified as BareNumber
 import Checked.Type (Type)
@@ -21,6 +22,7 @@ import Part.Part qualified as Part
 import Query.Mention qualified as Mention
 import Query.Snapshot (Snapshot)
 import Query.Snapshot qualified as Snapshot
+import Surface.FileUnit qualified as FileUnit
 import Surface.Syntax
 import Surface.SyntaxWalk qualified as SyntaxWalk
 
@@ -45,7 +47,7 @@ inlayHints now (Region from to) =
     units s =
       [ InlayHint {offset = end (region e), text = unit, isType = False}
         | (e, t) <- BareNumber.bareNumbers typeAt s,
-          Just unit <- [unitOf t]
+          Just unit <- [unitOf (FileUnit.ofProgram (Snapshot.program now)) t]
       ]
     radii =
       [ InlayHint {offset = end (region e), text = "radius " <> Decimal.mm r, isType = False}
@@ -68,11 +70,12 @@ definedValue s = case s of
   Param n _ -> Just n
   _ -> Nothing
 
--- | The unit of a number without a unit that has this type; 'Nothing' for a plain number.
-unitOf :: Type -> Maybe Text
-unitOf t
-  | t == Type.len = Just "mm"
+-- | The unit of a number without a unit that has this type, in a file with this unit of lengths;
+-- 'Nothing' for a plain number.
+unitOf :: LengthUnit -> Type -> Maybe Text
+unitOf unit t
+  | t == Type.len = Just (Decimal.unitText unit)
   | t == Type.angle = Just "deg"
-  | t == Type.feed = Just "mm/min"
+  | t == Type.feed = Just (Decimal.unitText unit <> "/min")
   | t == Type.spindleSpeed = Just "rpm"
   | otherwise = Nothing

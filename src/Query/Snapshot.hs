@@ -44,6 +44,7 @@ import Query.Mention (Mentions)
 import Query.Mention qualified as Mention
 import Report.Report (Report)
 import Report.Report qualified as Report
+import Surface.FileUnit qualified as FileUnit
 import Surface.Import qualified as Import
 import Surface.Syntax (Program (..), Statement)
 import Toolpath.Toolpath (Toolpath)
@@ -112,7 +113,7 @@ unanalysed source =
     { source,
       reports = [],
       laterReports = [],
-      program = Program [] [],
+      program = FileUnit.program 0 [] [],
       facts = Mention.none,
       imports = [],
       imported = [],
@@ -162,7 +163,7 @@ inStages check loaded = (early, complete)
     both result = errors result <> warnings result
     source = LoadedProgram.source loaded
     (own, imported) = List.partition isOwn (statements written)
-    written = Maybe.fromMaybe (Program [] []) (output (LoadedProgram.surface loaded))
+    written = Maybe.fromMaybe (FileUnit.program 0 [] []) (output (LoadedProgram.surface loaded))
     isOwn s = Region.start (Region.region s) <= Text.length (Region.text source)
 
 -- | The snapshot of a machine description, from the path of its file and its text.

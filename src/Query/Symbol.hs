@@ -114,6 +114,7 @@ symbol source (Located whole s) = case s of
   With placement _ -> machining (region placement) (region placement)
   Broken _ name -> name >>= \n -> definition Value n ""
   Machine _ -> Nothing
+  Units _ -> Nothing
   Import _ -> Nothing
   Tool _ _ -> Nothing
   Feed _ -> Nothing

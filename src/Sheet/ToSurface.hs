@@ -24,6 +24,7 @@ import Data.Text (Text)
 import Data.Text qualified as Text
 import Sheet.Sheet hiding (program)
 import Sheet.Sheet qualified as Sheet
+import Surface.FileUnit qualified as FileUnit
 import Surface.PrintProgram qualified as PrintProgram
 import Surface.Syntax
   ( Expr,
@@ -41,14 +42,14 @@ import Surface.Token (Numeral (..), Unit (..))
 -- | The program that makes the part of a sheet.
 program :: Sheet -> Surface.Program
 program sheet =
-  Surface.Program {Surface.statements = concat (paragraphs sheet), Surface.comments = []}
+  FileUnit.program 0 (concat (paragraphs sheet)) []
 
 -- | The program of a sheet as text, in the layout of the formatter.
 text :: Sheet -> Text
 text sheet =
   Text.intercalate
     "\n"
-    [PrintProgram.program (Surface.Program statements []) | statements <- paragraphs sheet]
+    [PrintProgram.program (FileUnit.program 0 statements []) | statements <- paragraphs sheet]
 
 -- | The name of the part, made of the program's number on the sheet.
 partName :: Double -> Text

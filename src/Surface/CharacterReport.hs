@@ -4,9 +4,11 @@
 module Surface.CharacterReport
   ( strayTitle,
     strayHint,
+    lookAlikeHint,
   )
 where
 
+import Base.Name qualified as Name
 import Base.Region (Region (..))
 import Data.Char (GeneralCategory (..), generalCategory, ord)
 import Data.Text (Text)
@@ -55,3 +57,14 @@ strayHint c around
     ]
   | c == '.' = ["A number has digits before its point: 0.5, 5.0 or 5."]
   | otherwise = []
+
+-- | Names the letters of the other alphabet in a word that looks like a known one.
+lookAlikeHint :: Text -> [Text] -> [Text]
+lookAlikeHint word known =
+  [ "In " <> quote word <> " the letter " <> quote (Text.singleton a) <> " is " <> alphabet a <> "."
+    | w <- take 1 (Name.lookAlike word known),
+      (a, b) <- take 1 (filter (uncurry (/=)) (Text.zip word w)),
+      a /= b
+  ]
+  where
+    alphabet c = if c > '~' then "Cyrillic" else "Latin"

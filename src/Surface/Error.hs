@@ -27,7 +27,8 @@ import Report.Fix qualified as Fix
 import Report.Report (Label (..), Report (..), ReportPlace (..), Severity (..), at, quote, report)
 import Report.Report qualified as Report
 import Surface.CharacterFix qualified as CharacterFix
-import Surface.CharacterReport (strayHint, strayTitle)
+import Surface.CharacterReport (lookAlikeHint, strayHint, strayTitle)
+import Surface.FileUnitReport qualified as FileUnitReport
 import Surface.Foreign (ForeignLanguage, ForeignLine)
 import Surface.ForeignReport (foreignReport)
 import Surface.Keyword qualified as Keyword
@@ -68,6 +69,9 @@ data Error
   | -- | a statement in the braces of another statement: the keyword of the inner one, the start of
     -- the outer one, the tokens around the keyword
     Misplaced Region Text (Maybe Int) TokenContext
+  | -- | a @units@ statement that does not stand at the beginning of its file: the region of the
+    -- first one if this is not the first, the offset at which it belongs
+    UnitsMisplaced Region (Maybe Region) Int
   | -- | brackets nested too deep: the limit
     TooDeep Region Int
   | -- | a program with too many tokens: the limit
@@ -272,6 +276,7 @@ toReport err = case err of
             | word `elem` ["rapid", "feed"]
           ]
       }
+  UnitsMisplaced region first place' -> FileUnitReport.misplaced region first place'
   TooLong region limit ->
     (at region "E0116" ("the program has more than " <> Decimal.whole limit <> " words and signs"))
       { hints = ["Repeat with for and functions what repeats."]
@@ -572,17 +577,6 @@ signTitle region token around = case (token, map shape (before around), map shap
   _ -> Nothing
   where
     foreignComment = "‘//’ begins no comment: a comment begins with ‘--’"
-
--- | Names the letters of the other alphabet in a word that looks like a known one.
-lookAlikeHint :: Text -> [Text] -> [Text]
-lookAlikeHint word known =
-  [ "In " <> quote word <> " the letter " <> quote (Text.singleton a) <> " is " <> alphabet a <> "."
-    | w <- take 1 (Name.lookAlike word known),
-      (a, b) <- take 1 (filter (uncurry (/=)) (Text.zip word w)),
-      a /= b
-  ]
-  where
-    alphabet c = if c > '~' then "Cyrillic" else "Latin"
 
 counted :: Int -> Text -> Text
 counted n thing = Decimal.whole n <> " " <> thing <> (if n == 1 then "" else "s")

@@ -16,6 +16,7 @@ where
 
 import Base.Name (Name (..))
 import Base.Name qualified as Name
+import Base.Quantity (LengthUnit (..))
 import Base.Region (Located (..), span)
 import Base.Region qualified as Region
 import Control.Monad (void)
@@ -70,6 +71,7 @@ statement_ = do
 statementForms :: Grammar p => [(Text, p Statement_)]
 statementForms =
   [ ("part", Part <$> name <*> Parsec.optional (onThisLine text')),
+    ("units", Units <$> ((Millimetres <$ keyword "mm") <|> (Inches <$ keyword "in"))),
     ("machine", Machine <$> (onThisLine (located machine) <?> "the name of a machine")),
     ("import", Import <$> (text' <?> "the name of a file in quotation marks")),
     ("tool", firstTool),

@@ -12,10 +12,13 @@ module Surface.Import
 where
 
 import Base.Name qualified as Name
+import Base.Quantity (LengthUnit)
 import Base.Region (Located (..), Region, Source)
 import Base.Region qualified as Region
 import Base.Result (Result (..))
 import Control.Monad.State.Strict (StateT, get, gets, lift, modify', put, runStateT)
+import Data.Map.Strict (Map)
+import Data.Map.Strict qualified as Map
 import Data.Maybe (listToMaybe)
 import Data.Set (Set)
 import Data.Set qualified as Set
@@ -23,6 +26,7 @@ import Data.Text (Text)
 import Data.Text qualified as Text
 import Surface.Csv qualified as Csv
 import Surface.Error (Error (..))
+import Surface.FileUnit qualified as FileUnit
 import Surface.Parser qualified as Parser
 import Surface.Syntax (Lines (..), Program (..), Statement, Statement_ (..), TableLine)
 import System.FilePath
@@ -71,7 +75,9 @@ data Progress = Progress
     found :: [Error],
     -- | the regions of the names of imported files and table files, with the paths of these files,
     -- the newest first
-    named :: [(Region, Text)]
+    named :: [(Region, Text)],
+    -- | the units of the imported files, by the offsets of their first characters
+    unitsFound :: Map Int (Maybe LengthUnit)
   }
 
 -- | Reads a program and the files that it imports. The path of the program appears in reports. The
@@ -85,7 +91,8 @@ load reader path text = do
           { texts = Region.fromText (Text.pack path) text,
             seen = Set.singleton itself,
             found = [],
-            named = []
+            named = [],
+            unitsFound = Map.empty
           }
   case output of
     Nothing ->
@@ -100,8 +107,8 @@ load reader path text = do
             surface =
               Result
                 []
-                (errors <> reverse (found progress))
-                (Just whole {statements = statements'}),
+                (errors <> FileUnit.misplaced (statements whole) <> reverse (found progress))
+                (Just whole {statements = statements', units = units whole <> unitsFound progress}),
             imports = reverse (named progress)
           }
 
@@ -195,7 +202,10 @@ readProgram reader chain i = do
         progress
           { texts = Region.addFile (Text.pack (importPath i)) text (texts progress),
             seen = Set.insert (importIdentity i) (seen progress),
-            found = reverse errors <> found progress
+            found =
+              reverse (errors <> maybe [] (FileUnit.misplaced . statements) output)
+                <> found progress,
+            unitsFound = maybe Map.empty units output <> unitsFound progress
           }
       filter isDefinition
         <$> replaceImports

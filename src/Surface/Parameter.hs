@@ -15,6 +15,7 @@ import Report.Report (Report (..), ReportPlace (..))
 import Report.Report qualified as Report
 import Surface.Error (Error (..))
 import Surface.Error qualified as Error
+import Surface.FileUnit qualified as FileUnit
 import Surface.Parser qualified as Parser
 import Surface.Syntax
 import Surface.Unlocated qualified as Unlocated
@@ -22,7 +23,9 @@ import Surface.Unlocated qualified as Unlocated
 -- | Replaces the values of @param@ statements. Each pair in @values@ is the name of a parameter and
 -- the text of its new expression. The last of several texts for one name counts. An unknown name
 -- and a text with mistakes are errors and replace nothing. The new expression has the region of the
--- parameter's name, since the text of the expression is not part of the program.
+-- parameter's name, since the text of the expression is not part of the program. Its numbers
+-- without a unit are in the unit of the program's own file, even if an imported file has the
+-- parameter.
 assign :: [(Text, Text)] -> Program -> Result w Error Program
 assign values program = foldl' (\before v -> before >>= assignOne v) (pure program) values
 
@@ -33,7 +36,8 @@ assignOne (name, text) program =
     at : _ -> case Parser.parseExpr text of
       Result {errors = [], output = Just e} ->
         let value = Unlocated.expressionAt at e
-         in pure program {statements = map (withValue name value) (statements program)}
+            assigned = program {statements = map (withValue name value) (statements program)}
+         in pure (FileUnit.withUnit (FileUnit.ofProgram program) at assigned)
       Result {errors} -> Result.failing [BadAssignment at name text (length errors)] program
   where
     parameters = [n | Located _ (Param n _) <- statements program]

@@ -25,6 +25,7 @@ import Surface.Combinator (run)
 import Surface.CommentLine qualified as CommentLine
 import Surface.Error (Error)
 import Surface.Error qualified as Error
+import Surface.FileUnit qualified as FileUnit
 import Surface.Foreign (ForeignLine, ForeignText)
 import Surface.Foreign qualified as Foreign
 import Surface.Grammar qualified as Grammar
@@ -57,7 +58,7 @@ parseExplained begin text = case drop maxTokens tokens of
         Result
           { warnings = [],
             errors,
-            output = Just Program {statements = Maybe.fromMaybe [] parsed, comments}
+            output = Just (FileUnit.program begin (Maybe.fromMaybe [] parsed) comments)
           }
       Just found -> withoutBrackets begin text found
     Just found -> withoutForeign begin text found
@@ -84,11 +85,11 @@ withoutForeign begin text found =
         errors,
       output =
         Just
-          Program
-            { statements =
-                sortOn region (Maybe.fromMaybe [] parsed <> map broken (NonEmpty.toList ls)),
+          ( FileUnit.program
+              begin
+              (sortOn region (Maybe.fromMaybe [] parsed <> map broken (NonEmpty.toList ls)))
               comments
-            }
+          )
     }
   where
     ls = Foreign.lines' found

@@ -11,6 +11,7 @@ where
 import Base.Decimal qualified as Decimal
 import Base.Name (Name (..))
 import Base.NumberTable qualified as NumberTable
+import Base.Quantity (LengthUnit (..))
 import Base.Region (Located (Located))
 import Base.Region qualified as Region
 import Data.Char (isDigit)
@@ -95,6 +96,8 @@ statement :: CommentPositions -> Int -> Statement -> [AlignedLine]
 statement comments indent (Located _ s) = case s of
   Part (Located _ (Name name)) title ->
     plain (spaced (map Text ("part" : name : maybe [] (\t -> [quoted (Region.value t)]) title)))
+  Units Millimetres -> worded "units" (Text "mm")
+  Units Inches -> worded "units" (Text "in")
   Machine (Located _ ref) -> worded "machine" (Text (machineRef ref))
   Import (Located _ file) -> worded "import" (Text (quoted file))
   Tool number c -> worded "tool" (spaced (map value (maybeToList number) <> [cutter comments c]))

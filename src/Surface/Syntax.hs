@@ -59,13 +59,21 @@ where
 
 import Base.Name (Name)
 import Base.NumberTable (NumberTable)
+import Base.Quantity (LengthUnit)
 import Base.Region (Located)
 import Data.List.NonEmpty (NonEmpty)
+import Data.Map.Strict (Map)
 import Data.Text (Text)
 import Surface.Token (Numeral (..), Unit)
 
--- | A program: its statements and its comments, each list in the order of the text.
-data Program = Program {statements :: [Statement], comments :: [Located Text]}
+-- | A program: its statements and its comments, each list in the order of the text. 'units' are the
+-- units that the files of the program give for lengths without a unit, each by the offset of its
+-- file's first character; 'Nothing' for a file without a @units@ statement.
+data Program = Program
+  { statements :: [Statement],
+    comments :: [Located Text],
+    units :: Map Int (Maybe LengthUnit)
+  }
   deriving stock (Eq, Show)
 
 -- | A statement as the program writes it, with its region.
@@ -75,6 +83,8 @@ type Statement = Located Statement_
 data Statement_
   = -- | @part flange "title"@
     Part (Located Name) (Maybe (Located Text))
+  | -- | @units in@
+    Units LengthUnit
   | -- | @machine lkp-01f@
     Machine (Located MachineRef)
   | -- | @import "bolts.part"@

@@ -79,6 +79,7 @@ itemsIn i =
 ofStatement :: Statement -> [Expr]
 ofStatement (Located _ s) = case s of
   Part _ _ -> []
+  Units _ -> []
   Machine _ -> []
   Import _ -> []
   Tool number c -> maybeToList number <> ofCutter c

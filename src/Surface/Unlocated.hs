@@ -31,6 +31,7 @@ here = unlocated id
 statement :: Statement_ -> Statement_
 statement s = case s of
   Part name title -> Part (here name) (fmap here title)
+  Units unit -> Units unit
   Machine ref -> Machine (here ref)
   Import file -> Import (here file)
   Tool number c -> Tool (fmap expr number) (unlocated cutter c)

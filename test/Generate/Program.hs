@@ -18,6 +18,7 @@ import Data.Set (Set)
 import Data.Set qualified as Set
 import Data.Text (Text)
 import Data.Text qualified as Text
+import Surface.FileUnit qualified as FileUnit
 import Surface.Keyword qualified as Keyword
 import Surface.Lexer qualified as Lexer
 import Surface.Syntax hiding (statements)
@@ -27,7 +28,9 @@ import Test.QuickCheck
 -- | A program without mistakes, as the parser could give it, except that all its regions are equal.
 program :: Gen Program
 program =
-  sized $ \n -> (`Program` []) <$> some' (min 8 (1 + n `div` 6)) (statement (min 4 (n `div` 12)))
+  sized $ \n ->
+    (\ss -> FileUnit.program 0 ss [])
+      <$> some' (min 8 (1 + n `div` 6)) (statement (min 4 (n `div` 12)))
 
 here :: a -> Located a
 here = Located (Region 0 0)
@@ -118,7 +121,8 @@ softWords =
     "dwell",
     "manual",
     "tip",
-    "s"
+    "s",
+    "units"
   ]
 
 number :: Gen Numeral
@@ -145,6 +149,7 @@ statement n = at (frequency ([(1, s) | s <- simple] <> [(3, s) | n > 0, s <- dee
   where
     simple =
       [ Part <$> at name <*> maybe' (at title),
+        Units <$> every,
         Machine <$> at (oneof [Named <$> machine, Described <$> title]),
         Import <$> at title,
         Tool <$> maybe' toolNumber <*> cutter n,

@@ -13,6 +13,7 @@ module Checked.Inference.Fast
 where
 
 import Base.Name (Name (..))
+import Base.Quantity (LengthUnit)
 import Base.Region (Located (..), Region)
 import Checked.Builtin (Form (..))
 import Checked.Builtin qualified as Builtin
@@ -30,25 +31,25 @@ import Surface.Syntax qualified as Surface
 import Surface.Token (Numeral (..))
 
 -- | Checks a literal, or a pair of literals, that must have the type @wanted@. A literal without a
--- unit gets the default unit of the wanted dimension. 'Nothing' if the term contains anything else,
--- if the wanted dimension is unknown, or if the unit does not fit it. The caller then uses full
--- inference.
-literal :: Type -> Surface.Expr -> Maybe Checked.Expr
-literal wanted (Located at e) = case (e, wanted) of
+-- unit gets the default unit of the wanted dimension in its file; @unitAt@ gives the unit of the
+-- file at a region. 'Nothing' if the term contains anything else, if the wanted dimension is
+-- unknown, or if the unit does not fit it. The caller then uses full inference.
+literal :: (Region -> LengthUnit) -> Type -> Surface.Expr -> Maybe Checked.Expr
+literal unitAt wanted (Located at e) = case (e, wanted) of
   (Surface.Literal (Numeral _ x) Nothing, Type.Quantity d)
     | Dimension.isKnown d ->
-      here (Checked.Number (x * Dimension.defaultUnit d))
+      here (Checked.Number (x * Dimension.defaultUnit (unitAt at) d))
   (Surface.Literal (Numeral _ x) (Just unit), Type.Quantity d)
     | (Type.Quantity ofUnit, factor) <- Type.ofUnit unit,
       ofUnit == d ->
       here (Checked.Number (x * factor))
   (Surface.Negate inner, Type.Quantity _)
-    | Just inner' <- literal wanted inner ->
+    | Just inner' <- literal unitAt wanted inner ->
       here (Checked.Negate inner')
   (Surface.Pair x y, Type.Spatial d)
     | Dimension.isKnown d,
-      Just x' <- literal Type.len x,
-      Just y' <- literal Type.len y ->
+      Just x' <- literal unitAt Type.len x,
+      Just y' <- literal unitAt Type.len y ->
       here (Checked.Pair x' y')
   _ -> Nothing
   where
@@ -67,12 +68,13 @@ data FastCall = FastCall
 -- one form (list of parameters) of the function. The form must not have labels, which are words
 -- such as @near@, and its types must not contain unknowns. Otherwise the result is 'Nothing', and
 -- the caller uses full inference. @expect@ checks the arguments if one of them is a pair with other
--- terms than literals.
+-- terms than literals. @unitAt@ gives the unit of the file at a region.
 call ::
+  (Region -> LengthUnit) ->
   (Type -> Surface.Expr -> Infer (Deferred Checked.Expr)) ->
   Surface.Expr ->
   Infer (Maybe FastCall)
-call expect (Located at e) = case e of
+call unitAt expect (Located at e) = case e of
   Surface.Call (Located nameRegion name@(Name text)) arguments
     | Just es <- traverse given (NonEmpty.toList arguments),
       Just shapes <- traverse shapeOf es,
@@ -92,7 +94,7 @@ call expect (Located at e) = case e of
               Nothing
               text
               (Inference.Described (Builtin.description builtin))
-            checkedCall <- onForm expect (Located at . Checked.Builtin builtin) form es
+            checkedCall <- onForm unitAt expect (Located at . Checked.Builtin builtin) form es
             pure
               ( Just
                   FastCall
@@ -111,18 +113,19 @@ call expect (Located at e) = case e of
 -- | Checks the arguments @es@ against a form, and lets @build@ make the call from them. If
 -- 'literal' accepts all arguments, the call is made at once. Otherwise @expect@ checks all of them.
 onForm ::
+  (Region -> LengthUnit) ->
   (Type -> Surface.Expr -> Infer (Deferred Checked.Expr)) ->
   ([Checked.Argument] -> Checked.Expr) ->
   Form ->
   [Surface.Expr] ->
   Infer (Deferred Checked.Expr)
-onForm expect build form es = case zipWithM literalArgument types es of
+onForm unitAt expect build form es = case zipWithM literalArgument types es of
   Just literals -> let found = build literals in found `seq` pure (const found)
   Nothing ->
     (\es' sol -> build (resolveAll sol (map (Checked.Given .) es'))) <$> zipWithM expect types es
   where
     types = map Builtin.type' (parameters form)
-    literalArgument wanted x = case literal wanted x of
+    literalArgument wanted x = case literal unitAt wanted x of
       Just x' -> Just $! Checked.Given x'
       Nothing -> Nothing
 

@@ -7,6 +7,7 @@ module Checked.Inference.Literal
   )
 where
 
+import Base.Quantity (LengthUnit)
 import Base.Region (Located (..))
 import Checked.Deferred (Deferred)
 import Checked.Dimension qualified as Dimension
@@ -22,16 +23,16 @@ import Surface.Token (Unit)
 
 -- | The type of a number of the program, and the number in the unit of checked programs, which may
 -- depend on the solution of inference. If it has no unit, its dimension follows from its use, and
--- it is in the default unit of that dimension.
-numberType :: Double -> Maybe Unit -> Infer (Type, Deferred Double)
-numberType x unit = case unit of
+-- it is in the default unit of that dimension in a file with the unit @ofFile@.
+numberType :: LengthUnit -> Double -> Maybe Unit -> Infer (Type, Deferred Double)
+numberType ofFile x unit = case unit of
   Just u -> let (t, factor) = Type.ofUnit u in pure (t, const (x * factor))
   Nothing -> do
     d <- Inference.freshDimension
     -- A literal in the body of a function has the same unit in all calls of the function. The
     -- literal 0 needs none, because 0 is the same in every unit.
     unless (x == 0) (Inference.monomorphic d)
-    pure (Type.Quantity d, \sol -> x * Dimension.defaultUnit (sol d))
+    pure (Type.Quantity d, \sol -> x * Dimension.defaultUnit ofFile (sol d))
 
 -- | Decides that an operand of a product or a quotient is a plain number, if it consists of
 -- literals without units and the other operand does not. A divisor of this kind is always a plain

@@ -6,6 +6,7 @@ where
 
 import Data.Text (Text)
 import Surface.Combinator.Fast qualified as FastCombinator
+import Surface.FileUnit qualified as FileUnit
 import Surface.Grammar qualified as Grammar
 import Surface.Lexer qualified as Lexer
 import Surface.Syntax
@@ -19,6 +20,6 @@ import Surface.Syntax
 parse :: Int -> Int -> Text -> Maybe Program
 parse limit begin text = case Lexer.tokens begin text of
   (tokens, comments) ->
-    (\statements -> Program {statements, comments})
+    (\statements -> FileUnit.program begin statements comments)
       <$> FastCombinator.run limit Grammar.fastProgram tokens
 {-# NOINLINE parse #-}
