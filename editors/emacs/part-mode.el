@@ -77,6 +77,8 @@
     ("^[ \t]*\\(pocket\\|work\\|program\\|safe\\|dwell\\)[ \t]+[(-]?\\(?:\\sw\\|\\s_\\)"
      1 font-lock-keyword-face)
     ("^[ \t]*\\(\\(?:optional[ \t]+\\)?stop\\)[ \t]*\\(?:--.*\\)?$" 1 font-lock-keyword-face)
+    ("^[ \t]*\\(units\\)[ \t]+\\(mm\\|in\\)\\_>"
+     (1 font-lock-keyword-face) (2 font-lock-type-face))
     (,(concat "\\(?:^\\|{\\)[ \t]*\\(" (regexp-opt part-mode-settings) "\\)\\_>")
      1 font-lock-keyword-face)
     ;; These words occur only after others; elsewhere they are names.

@@ -58,7 +58,7 @@ module.exports = grammar({
     // Statements
 
     _statement: $ => choice(
-      $.part, $.machine, $.import, $.tool, $.feed, $.tolerance, $.clearance, $.from,
+      $.part, $.units, $.machine, $.import, $.tool, $.feed, $.tolerance, $.clearance, $.from,
       $.work, $.program_number, $.safe,
       $.let, $.param, $.table, $.curve, $.piece, $.contour, $.assert,
       $.mill, $.turn, $.pocket, $.drill, $.rapid, $.move,
@@ -69,6 +69,7 @@ module.exports = grammar({
     statements: $ => seq('{', repeat($._statement), '}'),
 
     part: $ => seq('part', field('name', $.name), optional(field('title', $.text))),
+    units: $ => seq('units', field('unit', alias(choice('mm', 'in'), $.unit))),
     machine: $ => seq('machine', field('name', choice($.machine_name, $.text))),
     import: $ => seq('import', field('file', $.text)),
     tool: $ => seq('tool', optional(choice($.number, $.name)), $._cutter),

@@ -120,7 +120,8 @@ statements given =
         snippet = text
       }
     | (k, text) <- Snippet.statements,
-      k `notElem` Snippet.onceOnly || k `notElem` given
+      k `notElem` Snippet.onceOnly || k `notElem` given,
+      k /= "units" || all (== "part") given
   ]
   where
     isNext k = not (null given) || k == "part"

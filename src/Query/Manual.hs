@@ -42,17 +42,20 @@ words' = concat [statements, definitions, contours, machining, settings, units]
 statements :: [(Text, ManualEntry)]
 statements =
   under
-    "language.md#statements"
-    [ ("part", "Names the part; it is the first statement of a program."),
-      ("machine", "Names the machine for which the tape is made."),
-      ("tool", "Gives the tool at the beginning: its kind and its size."),
-      ("feed", "Gives the feed from here on; after an element or a point, the feed there."),
-      ("clearance", "Gives the height from here on at which rapid moves pass over everything."),
-      ("from", "Gives the position of the cutter's centre when the tape begins."),
-      ("diameter", "Gives the diameter of a tool."),
-      ("nose", "Gives the radius of the nose of a turning tool."),
-      ("tip", "Gives the direction of the tip of a turning tool, as a tool table has it.")
-    ]
+    "language.md#units"
+    [("units", "Gives the unit of the lengths and feeds that the file writes without a unit.")]
+    <> under
+      "language.md#statements"
+      [ ("part", "Names the part; it is the first statement of a program."),
+        ("machine", "Names the machine for which the tape is made."),
+        ("tool", "Gives the tool at the beginning: its kind and its size."),
+        ("feed", "Gives the feed from here on; after an element or a point, the feed there."),
+        ("clearance", "Gives the height from here on at which rapid moves pass over everything."),
+        ("from", "Gives the position of the cutter's centre when the tape begins."),
+        ("diameter", "Gives the diameter of a tool."),
+        ("nose", "Gives the radius of the nose of a turning tool."),
+        ("tip", "Gives the direction of the tip of a turning tool, as a tool table has it.")
+      ]
     <> under
       "language.md#settings-for-modern-controls"
       [ ("work", "Gives the work offset, from 54 to 59."),

@@ -48,6 +48,7 @@ statement keyword w = lookup w (entries keyword)
 
 entries :: Text -> [(Text, ([Slot], [Slot]))]
 entries keyword = case keyword of
+  "units" -> own [AtWord [GrammarWord w w | w <- ["in", "mm"]]] []
   "machine" -> own [AtMachine] []
   "tool" -> own [AtCutter] [AtCutter] <> [(k, ([], [])) | k <- cutterKinds]
   "feed" -> own (value Type.feed) []

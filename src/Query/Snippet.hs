@@ -18,6 +18,7 @@ import Data.Text qualified as Text
 statements :: [(Text, Text)]
 statements =
   [ ("part", "part ${1:name} \"${2:title}\""),
+    ("units", "units ${1:in}"),
     ("machine", "machine ${1:lkp-01f}"),
     ("tool", "tool mill(diameter ${1:6 mm})"),
     ("feed", "feed ${1:60 mm/min}"),
@@ -83,7 +84,7 @@ cutters =
 
 -- | The keywords of the statements that a program has at most once.
 onceOnly :: [Text]
-onceOnly = ["part", "machine", "tool", "tolerance", "from", "work", "program", "safe"]
+onceOnly = ["part", "units", "machine", "tool", "tolerance", "from", "work", "program", "safe"]
 
 -- | The text of a snippet without its marks, for a client that does not know them.
 plain :: Text -> Text

@@ -107,6 +107,7 @@ isItemStart expected = any ((`elem` expected) . quote) ["plunge", "peck", "cw", 
 statementForms :: [(Text, Text)]
 statementForms =
   [ ("part", "part bracket \"Bracket 12 mm\""),
+    ("units", "units in, or units mm"),
     ("machine", "machine iso6983"),
     ("import", "import \"ear.part\""),
     ("tool", "tool mill(diameter 12 mm)"),

@@ -18,6 +18,8 @@ syntax match partStatement /\(\<spindle\s\+\)\@<=manual\>/
 syntax match partStatement /\(\<change\>.*)\s*\)\@<=at\>/
 syntax match partStatement /\(^\s*dwell\s.*\)\@<=\<s\ze\s*\(--.*\)\?$/
 syntax match partCutter /\(\<turn(.*,\s*\)\@<=tip\>/
+syntax match partStatement /^\s*\zs\<units\ze\s\+\(mm\|in\)\>/
+syntax match partUnit /\(^\s*units\s\+\)\@<=\(mm\|in\)\>/
 syntax keyword partRepeat for in if then else and or not
 syntax keyword partWalk cw ccw open closed
 syntax keyword partLink meet near smooth tangent fillet chamfer slow bevel

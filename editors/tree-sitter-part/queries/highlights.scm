@@ -10,7 +10,7 @@
 
 ; The words that begin statements
 [
-  "part" "machine" "import" "tool" "feed" "tolerance" "clearance" "from"
+  "part" "units" "machine" "import" "tool" "feed" "tolerance" "clearance" "from"
   "let" "param" "table" "curve" "piece" "contour" "assert"
   "mill" "turn" "pocket" "drill" "rapid" "move" "change" "spindle" "coolant" "aux" "with"
   "work" "program" "safe" "stop" "optional" "dwell"
