@@ -2,6 +2,7 @@
 module Gcode.Heading
   ( Heading (..),
     fromToolpath,
+    safeHeightOn,
     clearances,
     highestClearance,
   )
@@ -13,6 +14,7 @@ import Base.Quantity (Mm (..), times)
 import Base.Region (Located (..))
 import Data.Containers.ListUtils (nubOrdOn)
 import Data.Text (Text)
+import Machine.ProgramForm (ProgramForm (..), Retract (..))
 import Part.Part (Cutter)
 import Part.Part qualified as Part
 import Toolpath.Toolpath (Toolpath)
@@ -64,6 +66,14 @@ fromToolpath path =
           Just cutter <- [Toolpath.firstCutter setup]
       ]
     changed = [(n, cutterText cutter) | Part.ChangeTool n cutter <- commands]
+
+-- | Safe height in mm on a control that needs one: that of the program, or else that of the
+-- description. Nothing on other controls, and if neither states one.
+safeHeightOn :: ProgramForm -> Heading -> Maybe Mm
+safeHeightOn form heading = case retract form of
+  SafeHeight own -> maybe own Just (safeHeight heading)
+  MachineHeight _ -> Nothing
+  ReferencePoint -> Nothing
 
 -- | Clearance heights of the machining statements.
 clearances :: Toolpath -> [Mm]

@@ -36,7 +36,7 @@ refusals machine form heading path program =
     <> [withoutHeights machine path | Toolpath.isFlat path && not (Toolpath.isTurned path)]
     <> lowStart machine path program
     <> toolErrors machine form heading path
-    <> safeErrors machine form heading path
+    <> safeErrors machine form heading path program
     <> [boxError machine region | BoxPath <- [rapidPath form], region <- take 1 (boxMoves path)]
 
 machineName :: Machine -> Text
@@ -149,20 +149,41 @@ toolErrors machine form heading path =
       isNothing (firstTool heading)
   ]
 
--- | Error of a program without a safe height, on a control that needs one.
-safeErrors :: Machine -> ProgramForm -> Heading -> Toolpath -> [Report]
-safeErrors machine form heading path =
-  [ (at (region (start path)) "E0515" "the program has no safe height")
-      { message =
-          [ machineName machine
-              <> " does not know where its z axis stands, so the tool first goes up to a height \
-                 \above everything. The program has to give that height."
-          ],
-        hints = ["Write ‘safe 40’ before the machining, with a height above all clamps."]
-      }
-    | retract form == SafeHeight,
-      isNothing (safeHeight heading)
-  ]
+-- | Error of a program without a safe height, on a control that needs one, or of a program that goes
+-- higher.
+safeErrors :: Machine -> ProgramForm -> Heading -> Toolpath -> FrameProgram -> [Report]
+safeErrors machine form heading path program = case retract form of
+  MachineHeight _ -> []
+  ReferencePoint -> []
+  SafeHeight _ -> case Heading.safeHeightOn form heading of
+    Nothing -> [missing]
+    Just safe
+      | highest > safe -> [tooLow safe]
+      | otherwise -> []
+  where
+    missing =
+      (at (region (start path)) "E0515" "the program has no safe height")
+        { message =
+            [ machineName machine
+                <> " does not know where its z axis stands, so the tool first goes up to a height \
+                   \above everything. The program has to give that height."
+            ],
+          hints = ["Write ‘safe 40’ before the machining, with a height above all clamps."]
+        }
+    tooLow safe =
+      (at (region (start path)) "E0515" "the program goes above its safe height")
+        { message =
+            [ "The safe height is "
+                <> Decimal.mm safe
+                <> ", and the program goes up to "
+                <> Decimal.mm highest
+                <> "."
+            ],
+          hints = ["Write a higher ‘safe’, or let the program stay below it."]
+        }
+    FrameProgram begin planned = program
+    highest =
+      maximum (map (Frame.height machine) (scanl (+) begin (map (Frame.increment . frame) planned)))
 
 -- | Error of a rapid move whose axes arrive one after the other, where only the straight line is
 -- free.

@@ -23,6 +23,7 @@ import Frame.Frame (Frame (..), FrameMotion (..), FrameProgram (..), PlannedFram
 import Frame.Frame qualified as Frame
 import Gcode.Dialect qualified as Dialect
 import Gcode.Heading (Heading (..))
+import Gcode.Heading qualified as Heading
 import Geometry.Carrier qualified as Carrier
 import Geometry.Segment qualified as Segment
 import Machine.Machine
@@ -194,12 +195,12 @@ operatorTexts form heading =
     <> safeTexts
     <> ["switch the spindle on by hand" | isSpindleByHand heading]
   where
-    safeTexts = case (retract form, safeHeight heading) of
-      (SafeHeight, Just z) ->
+    safeTexts = case Heading.safeHeightOn form heading of
+      Just z ->
         [ "the tool stands no higher than z " <> Decimal.mm z,
           "nothing is above the tool on its way up to that height"
         ]
-      _ -> []
+      Nothing -> []
 
 -- | Options of the firmware without which it passes over commands of the file, and goes on.
 marlinTexts :: Context -> FilePart -> [Text]
@@ -279,9 +280,9 @@ retractLines :: Context -> [Text]
 retractLines context@Context {form, heading} = case retract form of
   MachineHeight (Mm h) -> ["G53 G0 Z" <> Decimal.short 3 h]
   ReferencePoint -> ["G91 G28 Z0.", "G90"]
-  SafeHeight -> ["G0 " <> height <> rapidFeed context]
+  SafeHeight _ -> ["G0 " <> height <> rapidFeed context]
   where
-    height = case safeHeight heading of
+    height = case Heading.safeHeightOn form heading of
       Just (Mm z) -> "Z" <> Decimal.fixed 3 z
       Nothing -> ""
 

@@ -44,8 +44,8 @@ data Retract
   | -- | the reference point of z, by G28
     ReferencePoint
   | -- | the safe height of the program, in work coordinates: the control does not know where the
-    -- machine stands
-    SafeHeight
+    -- machine stands. The height in mm serves programs that state none
+    SafeHeight (Maybe Mm)
   deriving stock (Eq, Show)
 
 -- | Path of a rapid move that moves several axes.

@@ -60,14 +60,16 @@ programForm s = do
 -- | Reads the height to which the tool goes first.
 retractFrom :: Statement -> Result w Error Retract
 retractFrom =
-  withArguments ["retract machine 0 mm", "retract reference", "retract safe"] form
+  withArguments ["retract machine 0 mm", "retract reference", "retract safe", "retract safe 40 mm"] form
   where
     form :: [Argument] -> Maybe (Result w Error Retract)
     form args = case map value args of
       [Word "machine", Number _ v, Word "mm"]
         | abs v <= 10000 -> Just (pure (MachineHeight (Mm v)))
       [Word "reference"] -> Just (pure ReferencePoint)
-      [Word "safe"] -> Just (pure SafeHeight)
+      [Word "safe"] -> Just (pure (SafeHeight Nothing))
+      [Word "safe", Number _ v, Word "mm"]
+        | v > 0 && v <= 10000 -> Just (pure (SafeHeight (Just (Mm v))))
       _ -> Nothing
 
 -- | Commands that every program of this form needs.

@@ -363,7 +363,7 @@ unsafe title reason form =
         MachineHeight (Mm h) ->
           "Move z alone first, by G53 G0 Z" <> Decimal.short 3 h <> ", then x and y, then z."
         ReferencePoint -> "Move z alone first, by G91 G28 Z0, then x and y, then z."
-        SafeHeight ->
+        SafeHeight _ ->
           "Move z alone first, up to the safe height of the program, then x and y, then z."
     }
 

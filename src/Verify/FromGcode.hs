@@ -20,13 +20,14 @@ import Frame.Frame (Frame (increment), FrameProgram, PlannedFrame (frame))
 import Frame.Frame qualified as Frame
 import Gcode.Block (Fault)
 import Gcode.Heading (Heading (..))
+import Gcode.Heading qualified as Heading
 import Gcode.ModalState (Plane (..))
 import Gcode.Run qualified as Run
 import Gcode.ToFrames (ReadFrame (..), Reading (..))
 import Gcode.ToFrames qualified as ToFrames
 import Machine.Machine (Machine, ProgramForm (..))
 import Machine.Machine qualified as Machine
-import Machine.ProgramForm (RapidPath (..), Retract (..))
+import Machine.ProgramForm (RapidPath (..))
 import Machine.ProgramForm qualified as ProgramForm
 import Verify.ControlFault qualified as ControlFault
 import Verify.ControlState (StateDemand (..))
@@ -58,9 +59,9 @@ readTexts machine form heading program texts =
 -- | Height in pulses from which on the tool is above everything; Nothing if no height in work
 -- coordinates is.
 levelOf :: Machine -> ProgramForm -> Heading -> Maybe Pulses
-levelOf machine form heading = case (retract form, safeHeight heading) of
-  (SafeHeight, Just (Mm z)) -> Just (Pulses (ceiling (z / resolution - 1.0e-6)))
-  _ -> Nothing
+levelOf machine form heading = case Heading.safeHeightOn form heading of
+  Just (Mm z) -> Just (Pulses (ceiling (z / resolution - 1.0e-6)))
+  Nothing -> Nothing
   where
     Mm resolution = Machine.resolutionOf machine Machine.Z
 
