@@ -137,6 +137,7 @@ runBlock form now b = do
 -- | Sorts the words of a line, and refuses words that the control does not have, and repetitions.
 sorted :: ProgramForm -> Block -> Either Fault Sorted
 sorted form b = do
+  checkForm form b
   gs <- codes 'G' (gKnowledge (dialect form)) groupOfG
   ms <- codes 'M' (mKnowledge (dialect form)) groupOfM
   let others = [w | w <- gcodeWords b, letter w `notElem` ("GMN" :: String)]
@@ -163,6 +164,20 @@ sorted form b = do
         Absent -> faultOf b w (UnknownWord (wordText w))
       Nothing -> faultOf b w (UnknownWord (wordText w))
     tenfold (Number d k) = Number (10 * d) k
+
+-- | Refuses lines that the operator may leave out, and for Marlin lines with two commands or with
+-- words before the command.
+checkForm :: ProgramForm -> Block -> Either Fault ()
+checkForm form b
+  | isOptional b && dialect form `elem` [LinuxCnc, Fanuc] = faultAt b 1 (UnprovenWord "/")
+  | dialect form == Marlin, _ : w : _ <- commandWords = faultOf b w (RepeatedWord (wordText w))
+  | dialect form == Marlin,
+    w : _ <- gcodeWords b,
+    letter w `notElem` ("GMT" :: String) =
+    faultOf b w NoMotionMode
+  | otherwise = Right ()
+  where
+    commandWords = [w | w <- gcodeWords b, letter w `elem` ("GM" :: String)]
 
 faultAt :: Block -> Int -> FaultReason -> Either Fault a
 faultAt b at reason = Left (Fault (lineNumber b) at reason)
@@ -209,14 +224,21 @@ chosen n codes before table = case [a | (c, a) <- table, c `elem` codes] of
   [] -> before
 
 -- | Changes the tool if the line has M6. The spindle stops, and the control keeps the length of the
--- tool before.
+-- tool before. Many machines go to a place of their own for the change.
 toolChange :: Sorted -> Running -> Either Fault (Running, [Step])
 toolChange s now
   | 60 `notElem` mCodes s = Right (now, [])
-  | otherwise = Right (now {modal = changed}, [Step n changed (Changes (valueOf (selectedTool m)))])
+  | otherwise =
+    Right
+      ( now {modal = changed, place = Place Anywhere Anywhere height},
+        [Step n changed (Changes (valueOf (selectedTool m)))]
+      )
   where
     n = lineNumber (block s)
     m = modal now
+    height = case placeZ (place now) of
+      Retracted -> Retracted
+      _ -> Anywhere
     changed =
       m
         { toolInSpindle = maybe Unset (SetAt n) (valueOf (selectedTool m)),
@@ -324,7 +346,7 @@ dwellOf form s
 -- | Carries out the motion of a line.
 motionOf :: ProgramForm -> Sorted -> Running -> Either Fault (Running, [Step])
 motionOf form s now
-  | 40 `elem` gCodes s = Right (now, [])
+  | 40 `elem` gCodes s = withoutAxes >> Right (now, [])
   | 280 `elem` gCodes s = toReference form s now
   | null axisWords && null arcWords = unusedWords s >> Right (now, [])
   | otherwise = do
@@ -340,6 +362,10 @@ motionOf form s now
     pure (moved, [Step (lineNumber b) (modal now) (Travels travel)])
   where
     b = block s
+    -- A dwell of Fanuc may have its time in a word X.
+    withoutAxes = case filter (\w -> letter w /= 'X' || dialect form /= Fanuc) axisWords of
+      w : _ -> faultOf b w (RepeatedWord (wordText w))
+      [] -> Right ()
     axisWords = [w | w <- others s, letter w `elem` ("XYZ" :: String)]
     arcWords = [w | w <- others s, letter w `elem` ("IJKR" :: String), isArc]
     isArc = case valueOf (motionMode (modal now)) of
@@ -369,6 +395,7 @@ targetOf form s now = Place <$> along 'X' placeX <*> along 'Y' placeY <*> along 
       | valueOf (distances m) == Just Incremental = faultAt b 1 (WordMissing "G90" "G53")
       | c == 'Z',
         MachineHeight (Mm h) <- retract form,
+        isJust (valueOf (units m)) || digits k == 0,
         abs (picometres (picometresOf m k) - h) < 1.0e-6 =
         Right Retracted
       | otherwise = Right Anywhere
