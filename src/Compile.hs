@@ -57,10 +57,10 @@ import Frame.Frame (FrameProgram)
 import Frame.Frame qualified as Frame
 import Frame.FromToolpath qualified as Frame
 import Gcode.FaultReport qualified as FaultReport
-import Gcode.Heading (Heading)
+import Gcode.Heading (FileHeading)
 import Gcode.Heading qualified as Heading
 import Gcode.Requirement qualified as Requirement
-import Gcode.ToFrames (Reading)
+import Gcode.ToFrames (GcodeReading)
 import Gcode.Writer (ToolFile)
 import Gcode.Writer qualified as Writer
 import Machine.Machine (Machine, ProgramForm)
@@ -240,7 +240,7 @@ makeFiles form verification path machine =
 proveFiles ::
   Machine ->
   ProgramForm ->
-  Heading ->
+  FileHeading ->
   FrameProgram ->
   Proof ->
   [ToolFile] ->
@@ -370,7 +370,7 @@ fromAnyStart part Compiled {machine, toolpath, punched} =
 
 -- | Proves files of G-code that may come from elsewhere, as 'proveTape' does, and judges the state
 -- of the control in them.
-proveGcode :: ProgramForm -> Maybe Part -> Compiled -> Reading -> Proof
+proveGcode :: ProgramForm -> Maybe Part -> Compiled -> GcodeReading -> Proof
 proveGcode form part compiled@Compiled {machine, toolpath} reading =
   FromGcode.judged
     machine

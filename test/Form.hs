@@ -206,6 +206,7 @@ longFunctions =
         "Cli.Options.commands",
         "Frame.Error.toReport",
         "Frame.Error.warningReport",
+        "Gcode.FaultReport.wordsOf",
         "Machine.DecodingError.toReport",
         "Machine.Error.frameReport",
         "Machine.Error.holeReport",

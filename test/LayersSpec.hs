@@ -134,6 +134,7 @@ stageData =
           "Machine.Controller",
           "Machine.Feeds",
           "Machine.FrameLayout",
+          "Machine.ProgramForm",
           "Machine.TapeCode"
         ]
       ),

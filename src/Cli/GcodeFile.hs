@@ -22,7 +22,7 @@ import Gcode.Block (Fault (..))
 import Gcode.FaultReport qualified as FaultReport
 import Gcode.Heading qualified as Heading
 import Gcode.Run qualified as Run
-import Gcode.ToFrames (ReadFrame (..), Reading (..))
+import Gcode.ToFrames (GcodeReading (..), ReadFrame (..))
 import Gcode.ToFrames qualified as ToFrames
 import Machine.Machine (Machine, ProgramForm)
 import Report.Report (Label (..), Report (others, place), ReportPlace (..))
@@ -36,7 +36,7 @@ data GcodeFile = GcodeFile {fileName :: Text, fileText :: Text}
 
 -- | Reads the files that should be those of a program. The report of a line that is not understood
 -- comes with its source.
-read :: ProgramForm -> Compiled -> [GcodeFile] -> Either (Source, Report) Reading
+read :: ProgramForm -> Compiled -> [GcodeFile] -> Either (Source, Report) GcodeReading
 read form compiled gcode =
   case FromGcode.readTexts machine form heading planned (map fileText gcode) of
     Left fault@(Fault n _ _) ->
@@ -54,7 +54,7 @@ read form compiled gcode =
 
 -- | Reads a file without its program. The tool comes down where the file says, and from a position
 -- of 0.
-readAlone :: Machine -> ProgramForm -> GcodeFile -> Either (Source, Report) Reading
+readAlone :: Machine -> ProgramForm -> GcodeFile -> Either (Source, Report) GcodeReading
 readAlone machine form file = case Run.run form Nothing 1 (fileText file) of
   Left fault ->
     Left
@@ -65,7 +65,7 @@ readAlone machine form file = case Run.run form Nothing 1 (fileText file) of
 
 -- | Lines of a file in a range, each with its number and the frames that are read from it, and the
 -- unit of the range with the count of these units in the file.
-listing :: RowRange -> GcodeFile -> Reading -> ([Text], (Text, Int))
+listing :: RowRange -> GcodeFile -> GcodeReading -> ([Text], (Text, Int))
 listing range file reading =
   ( [ Text.justifyRight 6 ' ' (Decimal.whole n) <> "  " <> text <> frameWords text numbers
       | (n, text) <- zip [1 ..] (Text.lines (fileText file)),
@@ -107,7 +107,7 @@ fileOfLine gcode n = go 0 0 gcode
 
 -- | Reports of the proof of files, with the source that has the program and the files.
 reports ::
-  ProgramForm -> Compiled -> [GcodeFile] -> Source -> Reading -> Proof -> (Source, [Report])
+  ProgramForm -> Compiled -> [GcodeFile] -> Source -> GcodeReading -> Proof -> (Source, [Report])
 reports form compiled gcode source reading proof =
   ( foldl (\s f -> Region.addFile (fileName f) (fileText f) s) source gcode,
     zipWith withLine frames (Compile.gcodeReports (Compile.machine compiled) form lineRegion proof)

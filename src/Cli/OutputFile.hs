@@ -38,8 +38,8 @@ import Tape.Tape (Tape (..))
 -- rows.
 data TapeOutput = TapeOutput {machine :: Machine, toolWord :: Maybe Text, content :: Tape}
 
--- | Words for the files of tools: @T@ with the number. A tool that comes again has the number of its
--- turn behind it, as in @T1-2@. Nothing for a file of all tools.
+-- | Words for the files of tools: @T@ with the number. A tool that comes again has the number of
+-- its turn behind it, as in @T1-2@. Nothing for a file of all tools.
 numbered :: [Maybe Int] -> [Maybe Text]
 numbered tools = zipWith word [0 ..] tools
   where
@@ -70,7 +70,9 @@ writeTapes reporter name file sources wanted tapes = do
   case (clash, firstRepeated destinations) of
     (Just path, _) -> failWith reporter name (OverwritesProgram (Text.pack path))
     (Nothing, Just path) -> failWith reporter name (OneForSeveral (Text.pack path))
-    (Nothing, Nothing) -> writeAll reporter (zip destinations [bytes | TapeOutput {content = Tape bytes} <- tapes])
+    (Nothing, Nothing) -> writeAll reporter (zip destinations (map (bytesOf . content) tapes))
+  where
+    bytesOf (Tape bytes) = bytes
 
 -- | The path of a tape; @-@ is standard output. @file@ is the path of the program,
 -- @wanted@ the output path of the command line, and @count@ the count of all tapes. Without an

@@ -53,6 +53,7 @@ import Pulse.JobTimeline (TickRange (..))
 import Pulse.JobTimeline qualified as JobTimeline
 import Pulse.RunMeasure (FrameMeasure, RunTotal (stopReason, totalTicks))
 import Pulse.RunMeasure qualified as RunMeasure
+import Report.Report (Report)
 import System.FilePath (takeExtension, takeFileName)
 import Tape.Punch (TapeFrame (frameRead))
 import Tape.Punch qualified as Tape
@@ -78,7 +79,7 @@ run reporter options
                 sources = ownFiles file given
               }
   | otherwise = withTapeFile reporter target file $ \machine rows ->
-    case inFrames machine rows of
+    case inFrames file machine rows of
       Left (described, fault) ->
         Failed <$ Output.showReports reporter (Region.mainFile described) described [fault]
       Right tape -> runTape reporter options (alone machine tape)
@@ -86,15 +87,6 @@ run reporter options
     file = runInput options
     target = runTarget options
     isProgram = takeExtension file == ".part" || LoadedProgram.isInputSheet file
-    -- A file of G-code is run as the tape that has its frames alone.
-    inFrames machine rows = case Machine.programForm machine of
-      Nothing -> Right rows
-      Just form ->
-        Tape.write machine 0 . FromGcode.framesRead
-          <$> GcodeFile.readAlone
-            machine
-            form
-            (GcodeFile.GcodeFile (displayName file) (TapeDifference.textOf rows))
     alone machine rows =
       RunSubject
         { tapeName = displayName file,
@@ -105,6 +97,17 @@ run reporter options
           rows,
           sources = file : map Text.unpack (maybeToList target)
         }
+
+-- | The tape that is run for a file: a file of G-code is run as the tape that has its frames alone.
+inFrames :: FilePath -> Machine -> Tape -> Either (Source, Report) Tape
+inFrames file machine rows = case Machine.programForm machine of
+  Nothing -> Right rows
+  Just form ->
+    Tape.write machine 0 . FromGcode.framesRead
+      <$> GcodeFile.readAlone
+        machine
+        form
+        (GcodeFile.GcodeFile (displayName file) (TapeDifference.textOf rows))
 
 -- | Tape that is run.
 data RunSubject = RunSubject

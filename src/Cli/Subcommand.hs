@@ -47,6 +47,7 @@ import Cli.TapeInput (onFirstMachine, withTapeFile)
 import Compile (Compiled (Compiled), Punched (..))
 import Compile qualified
 import Control.Exception (evaluate)
+import Data.ByteString (ByteString)
 import Data.List.NonEmpty qualified as NonEmpty
 import Data.Maybe (isJust, maybeToList)
 import Data.Text (Text)
@@ -56,7 +57,7 @@ import Draw.Plot qualified as Plot
 import Draw.TapeRows qualified as TapeRows
 import Frame.Frame (Frame)
 import Frame.Frame qualified as Frame
-import Gcode.ToFrames (Reading)
+import Gcode.ToFrames (GcodeReading)
 import Gcode.Writer qualified as Writer
 import Machine.BuiltIn qualified as BuiltIn
 import Machine.Machine (Machine, MachineName (..), ProgramForm)
@@ -164,9 +165,10 @@ verify reporter file target tapeFiles withPulses =
           _ | not (isCountRight compiled) -> failWith reporter (name given) (wrongCount compiled)
           Just form
             | not withPulses ->
-              verifyGcode reporter given form (gcodeFiles given compiled foreignTapes) compiled
+              let read' = [(path, bytes) | (path, Right bytes) <- zip tapeFiles foreignTapes]
+               in verifyGcode reporter given form (gcodeFiles given compiled read') compiled
           _ ->
-            withPulseProof given compiled rows $
+            withPulseProof reporter given withPulses compiled rows $
               verifyTape
                 reporter
                 given
@@ -181,36 +183,46 @@ verify reporter file target tapeFiles withPulses =
     wrongCount compiled = WrongFileCount (length tapeFiles) (map Text.pack (fileNames compiled))
     isCountRight compiled =
       null tapeFiles || length tapeFiles == max 1 (length (files (Compile.punched compiled)))
-    gcodeFiles given compiled contents = case contents of
-      [] -> [GcodeFile (name given) (Writer.fileText f) | f <- files (Compile.punched compiled)]
-      _ ->
-        [ GcodeFile (displayName path) (TapeDifference.textOf (Tape bytes))
-          | (path, Right bytes) <- zip tapeFiles contents
-        ]
-    -- The warnings about the program are left out if the tape cannot be read.
-    withContents foreignTapes result = case (foreignTapes, found) of
-      (_ : _, Just (_, Left _)) -> both {warnings = []}
-      (_ : _, Just (_, Right (_, Left _))) -> both {warnings = []}
-      _ -> both
+
+-- | Program with the rows and the frames of its first foreign tape, or of its own tape if there is
+-- no foreign one. The warnings about the program are left out if the tape cannot be read.
+withContents ::
+  [Either Error ByteString] ->
+  Result Report Report Compiled ->
+  Result Report Report (Compiled, Either Error (Tape, Either Damage [Frame]))
+withContents foreignTapes result = case (foreignTapes, found) of
+  (_ : _, Just (_, Left _)) -> both {warnings = []}
+  (_ : _, Just (_, Right (_, Left _))) -> both {warnings = []}
+  _ -> both
+  where
+    both = result {output = found}
+    found = contentsOf <$> output result
+    contentsOf compiled = (compiled, withFrames <$> rowsOf compiled)
       where
-        both = result {output = found}
-        found = contentsOf <$> output result
-        contentsOf compiled = (compiled, withFrames <$> rowsOf compiled)
-          where
-            withFrames rows = (rows, readTape compiled rows)
-        rowsOf compiled = case sequence foreignTapes of
-          Left e -> Left e
-          Right [] -> Right (tape (Compile.punched compiled))
-          Right (first : _) -> Right (Tape first)
-    withPulseProof given compiled rows continue
-      | not withPulses = continue Nothing
-      | otherwise = case Compile.provePulses compiled rows of
-        Just pulses -> continue (Just pulses)
-        Nothing ->
-          let machine = Compile.machine compiled
-              MachineName machineName = Machine.name machine
-              noPulses = maybe NoController (const NoPulses) (Machine.controller machine)
-           in failWith reporter (name given) (noPulses machineName)
+        withFrames rows = (rows, readTape compiled rows)
+    rowsOf compiled = case sequence foreignTapes of
+      Left e -> Left e
+      Right [] -> Right (tape (Compile.punched compiled))
+      Right (first : _) -> Right (Tape first)
+
+-- | Continues with the proof of the pulses if it is asked for, and else with 'Nothing'.
+withPulseProof ::
+  Reporter ->
+  Input ->
+  Bool ->
+  Compiled ->
+  Tape ->
+  (Maybe (Result Report Report PulseProof) -> IO Exit) ->
+  IO Exit
+withPulseProof reporter given withPulses compiled rows continue
+  | not withPulses = continue Nothing
+  | otherwise = case Compile.provePulses compiled rows of
+    Just pulses -> continue (Just pulses)
+    Nothing ->
+      let machine = Compile.machine compiled
+          MachineName machineName = Machine.name machine
+          noPulses = maybe NoController (const NoPulses) (Machine.controller machine)
+       in failWith reporter (name given) (noPulses machineName)
 
 -- | The frames of a tape that should be the one of a program.
 readTape :: Compiled -> Tape -> Either Damage [Frame]
@@ -218,6 +230,16 @@ readTape Compiled {Compile.machine, Compile.punched}
   -- A file of G-code is read by 'verifyGcode'.
   | isJust (Machine.programForm machine) = const (Right [])
   | otherwise = Tape.readExpected machine (Frame.start (program punched)) (framesOf punched)
+
+-- | Files of G-code: those of the command line, with their contents, or the files of the program if
+-- the command line names none.
+gcodeFiles :: Input -> Compiled -> [(FilePath, ByteString)] -> [GcodeFile]
+gcodeFiles given compiled foreignFiles = case foreignFiles of
+  [] -> [GcodeFile (name given) (Writer.fileText f) | f <- files (Compile.punched compiled)]
+  _ ->
+    [ GcodeFile (displayName path) (TapeDifference.textOf (Tape bytes))
+      | (path, bytes) <- foreignFiles
+    ]
 
 -- | Reads the files of a program for a modern control, compares their motions with the part, judges
 -- the state of the control, and prints the proof.
@@ -406,7 +428,7 @@ framesOfTape reporter tapeFile machine rows continue = case Tape.read machine 0 
 
 -- | Continues with what is read from a file of G-code without its program.
 withGcode ::
-  Reporter -> Machine -> ProgramForm -> GcodeFile -> (Reading -> IO Exit) -> IO Exit
+  Reporter -> Machine -> ProgramForm -> GcodeFile -> (GcodeReading -> IO Exit) -> IO Exit
 withGcode reporter machine form gcode continue = case GcodeFile.readAlone machine form gcode of
   Left (text, fault) -> Failed <$ Output.showReports reporter (Region.mainFile text) text [fault]
   Right reading -> continue reading

@@ -4,9 +4,9 @@
 -- line. Expressions, parameters and control flow are not understood, so they are refused: the
 -- motions of such a file would be unknown.
 module Gcode.Block
-  ( Block (..),
+  ( GcodeBlock (..),
     GcodeWord (..),
-    Number (..),
+    GcodeNumber (..),
     Fault (..),
     FaultReason (..),
     blocks,
@@ -22,7 +22,7 @@ import Data.Text (Text)
 import Data.Text qualified as Text
 
 -- | One line of a file.
-data Block = Block
+data GcodeBlock = GcodeBlock
   { -- | number of the line, from 1
     lineNumber :: Int,
     gcodeWords :: [GcodeWord],
@@ -37,7 +37,7 @@ data Block = Block
 data GcodeWord = GcodeWord
   { -- | capital letter
     letter :: Char,
-    number :: Number,
+    number :: GcodeNumber,
     -- | first column of the word, from 1
     column :: Int
   }
@@ -45,7 +45,7 @@ data GcodeWord = GcodeWord
 
 -- | A decimal number, exactly: its digits as a whole number with a sign, and how many of the digits
 -- are after the point.
-data Number = Number {digits :: Int, decimals :: Int}
+data GcodeNumber = GcodeNumber {digits :: Int, decimals :: Int}
   deriving stock (Eq, Show)
 
 -- | Line that is not understood: its number, its first column, and the reason.
@@ -90,10 +90,10 @@ data FaultReason
     BehindEnd
   deriving stock (Eq, Show)
 
--- | Lines of a file, numbered from @first@ on; a fault for the first line that cannot be divided into words. A line that
--- consists of a percent sign begins the program; a second one ends it, and what follows is not
--- read.
-blocks :: Int -> Text -> Either Fault [Block]
+-- | Lines of a file, numbered from @first@ on; a fault for the first line that cannot be divided
+-- into words. A line that consists of a percent sign begins the program; a second one ends it, and
+-- what follows is not read.
+blocks :: Int -> Text -> Either Fault [GcodeBlock]
 blocks first file =
   concat <$> traverse block (upToEnd False (zip [first ..] (map bare (Text.lines file))))
   where
@@ -107,7 +107,7 @@ blocks first file =
       Left fault -> Left fault
       Right (ws, cs)
         | null ws && null cs -> Right []
-        | otherwise -> Right [Block n ws cs ("/" `Text.isPrefixOf` Text.stripStart line)]
+        | otherwise -> Right [GcodeBlock n ws cs ("/" `Text.isPrefixOf` Text.stripStart line)]
 
 -- | Words and comments of the line with a number.
 wordsOf :: Int -> Text -> Either Fault ([GcodeWord], [Text])
@@ -136,11 +136,11 @@ wordsOf n line = go 1 line
 
 -- | Number at the beginning of a text, and the text behind it. Nothing if no number begins there;
 -- Left if it has too many digits.
-numberFrom :: Text -> Maybe (Either () (Number, Text))
+numberFrom :: Text -> Maybe (Either () (GcodeNumber, Text))
 numberFrom text
   | Text.null whole && Text.null fraction = Nothing
   | Text.length whole > mostWhole || Text.length fraction > mostDecimals = Just (Left ())
-  | otherwise = Just (Right (Number (sign * value) (Text.length fraction), rest))
+  | otherwise = Just (Right (GcodeNumber (sign * value) (Text.length fraction), rest))
   where
     (sign, unsigned) = case Text.uncons text of
       Just ('-', more) -> (-1, more)
@@ -158,22 +158,22 @@ mostWhole = 8
 mostDecimals = 8
 
 -- | The whole number that a number is; Nothing if it has a fraction.
-isWhole :: Number -> Maybe Int
-isWhole (Number d k)
+isWhole :: GcodeNumber -> Maybe Int
+isWhole (GcodeNumber d k)
   | r == 0 = Just q
   | otherwise = Nothing
   where
     (q, r) = d `quotRem` (10 ^ k)
 
 -- | The number times 10 to the power @k@; digits behind it are cut off.
-scaled :: Int -> Number -> Int
-scaled k (Number d n)
+scaled :: Int -> GcodeNumber -> Int
+scaled k (GcodeNumber d n)
   | k >= n = d * 10 ^ (k - n)
   | otherwise = d `quot` (10 ^ (n - k))
 
 -- | Number as text, without zeros at the end of its decimals.
-numberText :: Number -> Text
-numberText (Number d n)
+numberText :: GcodeNumber -> Text
+numberText (GcodeNumber d n)
   | Text.null fraction = sign <> whole
   | otherwise = sign <> whole <> "." <> fraction
   where

@@ -15,7 +15,7 @@ where
 
 import Machine.ProgramForm (Dialect (..))
 
--- | What is known of a word.
+-- | Knowledge of a word.
 data WordKnowledge
   = -- | The control has it, and "Gcode.Run" carries it out.
     Known
@@ -25,7 +25,7 @@ data WordKnowledge
     Absent
   deriving stock (Eq, Show)
 
--- | What is known of the G word with this number of tenths.
+-- | Knowledge of the G word with this number of tenths.
 gKnowledge :: Dialect -> Int -> WordKnowledge
 gKnowledge dialect code
   | code `elem` known = Known
@@ -56,7 +56,7 @@ gKnowledge dialect code
           <> [630, 650, 660, 670, 680, 690, 730, 740, 760, 810, 820, 830, 840, 850, 860, 870, 880]
           <> [890, 920, 930, 960, 970, 541, 1030, 1870]
 
--- | What is known of the M word with this number of tenths.
+-- | Knowledge of the M word with this number of tenths.
 mKnowledge :: Dialect -> Int -> WordKnowledge
 mKnowledge dialect code
   | code `elem` known = Known

@@ -1,6 +1,6 @@
--- | What a G-code file says besides its motions: the part, the tools, the work offset.
+-- | The heading of a G-code file, which has no motions: the part, the tools, the work offset.
 module Gcode.Heading
-  ( Heading (..),
+  ( FileHeading (..),
     fromToolpath,
     safeHeightOn,
     clearances,
@@ -20,8 +20,8 @@ import Part.Part qualified as Part
 import Toolpath.Toolpath (Toolpath)
 import Toolpath.Toolpath qualified as Toolpath
 
--- | What a file says besides its frames.
-data Heading = Heading
+-- | Facts of a file besides its frames.
+data FileHeading = FileHeading
   { partName :: Text,
     partTitle :: Text,
     -- | number of the work offset, 54 to 59
@@ -42,9 +42,9 @@ data Heading = Heading
   deriving stock (Eq, Show)
 
 -- | Heading of the files of a toolpath.
-fromToolpath :: Toolpath -> Heading
+fromToolpath :: Toolpath -> FileHeading
 fromToolpath path =
-  Heading
+  FileHeading
     { partName = maybe "" (\(Name n) -> n) (Toolpath.partName setup),
       partTitle = Toolpath.partTitle setup,
       workOffset = maybe 54 value (Toolpath.workOffset setup),
@@ -69,7 +69,7 @@ fromToolpath path =
 
 -- | Safe height in mm on a control that needs one: that of the program, or else that of the
 -- description. Nothing on other controls, and if neither states one.
-safeHeightOn :: ProgramForm -> Heading -> Maybe Mm
+safeHeightOn :: ProgramForm -> FileHeading -> Maybe Mm
 safeHeightOn form heading = case retract form of
   SafeHeight own -> maybe own Just (safeHeight heading)
   MachineHeight _ -> Nothing

@@ -10,7 +10,7 @@ module Gcode.ModalState
     Units (..),
     Plane (..),
     Distances (..),
-    FeedMode (..),
+    FeedKind (..),
     MotionMode (..),
     Spindle (..),
     ToolLength (..),
@@ -52,7 +52,7 @@ data Plane = PlaneXY | PlaneZX | PlaneYZ
 data Distances = Absolute | Incremental
   deriving stock (Eq, Show)
 
-data FeedMode = PerMinute | PerTurn | InverseTime
+data FeedKind = PerMinute | PerTurn | InverseTime
   deriving stock (Eq, Show)
 
 -- | Kind of motion of a line with words of axes.
@@ -71,8 +71,8 @@ data ToolLength = NoLength | LengthOf Int | LengthOfOther
 data Coolant = CoolantOff | CoolantRunning
   deriving stock (Eq, Show)
 
--- | How a control follows the path at corners: exactly, or with a deviation of at most so many mm;
--- Nothing if the deviation has no bound.
+-- | Path at corners: exact, or with a deviation of at most so many mm; Nothing if the deviation has
+-- no bound.
 data PathMode = ExactPath | Blended (Maybe Mm)
   deriving stock (Eq, Show)
 
@@ -83,7 +83,7 @@ data ModalState = ModalState
     plane :: Modal Plane,
     distances :: Modal Distances,
     arcCentres :: Modal Distances,
-    feedMode :: Modal FeedMode,
+    feedMode :: Modal FeedKind,
     feed :: Modal Double,
     -- | number of the work offset, 54 to 59
     workOffset :: Modal Int,

@@ -1,5 +1,5 @@
--- | What a program has to say before a file for a modern control can be written: the file is run
--- unseen, so nothing may depend on what the machine happens to do.
+-- | Requirements of a file for a modern control that its program has to meet. Nothing in the file
+-- may depend on what the program before has left in the control.
 module Gcode.Requirement
   ( refusals,
   )
@@ -15,7 +15,7 @@ import Frame.CommandState (CommandState)
 import Frame.CommandState qualified as CommandState
 import Frame.Frame (FrameProgram (FrameProgram), PlannedFrame (frame))
 import Frame.Frame qualified as Frame
-import Gcode.Heading (Heading (..))
+import Gcode.Heading (FileHeading (..))
 import Gcode.Heading qualified as Heading
 import Gcode.Writer qualified as Writer
 import Geometry.Segment qualified as Segment
@@ -30,7 +30,7 @@ import Toolpath.Toolpath (Block, Toolpath (..))
 import Toolpath.Toolpath qualified as Toolpath
 
 -- | Errors of a program for a machine with this form of programs.
-refusals :: Machine -> ProgramForm -> Heading -> Toolpath -> FrameProgram -> [Report]
+refusals :: Machine -> ProgramForm -> FileHeading -> Toolpath -> FrameProgram -> [Report]
 refusals machine form heading path program =
   spindleErrors machine heading path
     <> [withoutHeights machine path | Toolpath.isFlat path && not (Toolpath.isTurned path)]
@@ -43,7 +43,7 @@ machineName :: Machine -> Text
 machineName machine = let MachineName n = Machine.name machine in n
 
 -- | Error at the first cut for which the program does not say that the spindle turns, or how fast.
-spindleErrors :: Machine -> Heading -> Toolpath -> [Report]
+spindleErrors :: Machine -> FileHeading -> Toolpath -> [Report]
 spindleErrors machine heading path
   | isSpindleByHand heading = []
   | otherwise = case mapMaybe notTurning (zip (statesAt (blocks path)) (blocks path)) of
@@ -132,7 +132,7 @@ lowStart machine path program = case Heading.clearances path of
     down = Frame.height machine (landingOf program)
 
 -- | Error of a program whose first tool has no number.
-toolErrors :: Machine -> ProgramForm -> Heading -> Toolpath -> [Report]
+toolErrors :: Machine -> ProgramForm -> FileHeading -> Toolpath -> [Report]
 toolErrors machine form heading path =
   [ (at (region (start path)) "E0514" "the first tool has no number")
       { message =
@@ -151,7 +151,7 @@ toolErrors machine form heading path =
 
 -- | Error of a program without a safe height, on a control that needs one, or of a program that goes
 -- higher.
-safeErrors :: Machine -> ProgramForm -> Heading -> Toolpath -> FrameProgram -> [Report]
+safeErrors :: Machine -> ProgramForm -> FileHeading -> Toolpath -> FrameProgram -> [Report]
 safeErrors machine form heading path program = case retract form of
   MachineHeight _ -> []
   ReferencePoint -> []

@@ -10,7 +10,7 @@ module Gcode.Run
   ( Step (..),
     Action (..),
     Travel (..),
-    Place (..),
+    ToolPlace (..),
     Coordinate (..),
     run,
     picometres,
@@ -53,15 +53,15 @@ data Action
 -- | A motion.
 data Travel = Travel
   { mode :: MotionMode,
-    from :: Place,
-    to :: Place,
+    from :: ToolPlace,
+    to :: ToolPlace,
     -- | centre of an arc in its plane, by the two axes of the plane in the order x y or z x
     about :: Maybe (Int, Int)
   }
   deriving stock (Eq, Show)
 
 -- | Position of the tool, along the axes X, Y and Z of the control.
-data Place = Place {placeX :: Coordinate, placeY :: Coordinate, placeZ :: Coordinate}
+data ToolPlace = ToolPlace {placeX :: Coordinate, placeY :: Coordinate, placeZ :: Coordinate}
   deriving stock (Eq, Show)
 
 -- | Position along one axis.
@@ -75,7 +75,7 @@ data Coordinate
   deriving stock (Eq, Show)
 
 -- | State between two lines.
-data Running = Running {modal :: ModalState, place :: Place, isEnded :: Bool}
+data Running = Running {modal :: ModalState, place :: ToolPlace, isEnded :: Bool}
 
 -- | Actions of a file in order; a fault for the first line that is not understood. @tool@ is the
 -- number of the tool that the operator has put into the spindle for this file, if there is one.
@@ -89,7 +89,12 @@ run form tool first text = do
   pure (concat (reverse steps))
   where
     state0 = initial (dialect form)
-    begin = Running state0 {toolInSpindle = maybe Unset (SetAt 0) tool} (Place Anywhere Anywhere Anywhere) False
+    begin =
+      Running
+        { modal = state0 {toolInSpindle = maybe Unset (SetAt 0) tool},
+          place = ToolPlace Anywhere Anywhere Anywhere,
+          isEnded = False
+        }
     next (now, done) b = do
       (now', steps) <- runBlock form now b
       pure (now', steps : done)
@@ -104,7 +109,7 @@ checkLengths form first text = case filter (isTooLong . snd) (zip [first ..] (Te
 
 -- | Words of a line, sorted by what they do.
 data Sorted = Sorted
-  { block :: Block,
+  { block :: GcodeBlock,
     -- | the numbers of the G words and of the M words, in tenths
     gCodes :: [Int],
     mCodes :: [Int],
@@ -113,7 +118,7 @@ data Sorted = Sorted
   }
 
 -- | Runs one line.
-runBlock :: ProgramForm -> Running -> Block -> Either Fault (Running, [Step])
+runBlock :: ProgramForm -> Running -> GcodeBlock -> Either Fault (Running, [Step])
 runBlock form now b = do
   s <- sorted form b
   when (isEnded now && not (null (gcodeWords b))) (faultAt b 1 BehindEnd)
@@ -135,7 +140,7 @@ runBlock form now b = do
     step r = Step (lineNumber b) (modal r)
 
 -- | Sorts the words of a line, and refuses words that the control does not have, and repetitions.
-sorted :: ProgramForm -> Block -> Either Fault Sorted
+sorted :: ProgramForm -> GcodeBlock -> Either Fault Sorted
 sorted form b = do
   checkForm form b
   gs <- codes 'G' (gKnowledge (dialect form)) groupOfG
@@ -163,11 +168,11 @@ sorted form b = do
         Unproven -> faultOf b w (UnprovenWord (wordText w))
         Absent -> faultOf b w (UnknownWord (wordText w))
       Nothing -> faultOf b w (UnknownWord (wordText w))
-    tenfold (Number d k) = Number (10 * d) k
+    tenfold (GcodeNumber d k) = GcodeNumber (10 * d) k
 
 -- | Refuses lines that the operator may leave out, and for Marlin lines with two commands or with
 -- words before the command.
-checkForm :: ProgramForm -> Block -> Either Fault ()
+checkForm :: ProgramForm -> GcodeBlock -> Either Fault ()
 checkForm form b
   | isOptional b && dialect form `elem` [LinuxCnc, Fanuc] = faultAt b 1 (UnprovenWord "/")
   | dialect form == Marlin, _ : w : _ <- commandWords = faultOf b w (RepeatedWord (wordText w))
@@ -179,17 +184,17 @@ checkForm form b
   where
     commandWords = [w | w <- gcodeWords b, letter w `elem` ("GM" :: String)]
 
-faultAt :: Block -> Int -> FaultReason -> Either Fault a
+faultAt :: GcodeBlock -> Int -> FaultReason -> Either Fault a
 faultAt b at reason = Left (Fault (lineNumber b) at reason)
 
-faultOf :: Block -> GcodeWord -> FaultReason -> Either Fault a
+faultOf :: GcodeBlock -> GcodeWord -> FaultReason -> Either Fault a
 faultOf b w = faultAt b (column w)
 
 wordText :: GcodeWord -> Text
 wordText w = Text.singleton (letter w) <> numberText (number w)
 
 -- | Number of the first word with a letter.
-given :: Char -> Sorted -> Maybe Number
+given :: Char -> Sorted -> Maybe GcodeNumber
 given c s = listToMaybe [number w | w <- others s, letter w == c]
 
 -- | The modes that are set before a tool change: feed mode, feed, speed and selected tool.
@@ -213,8 +218,8 @@ modesBefore s m = do
       Nothing -> faultAt (block s) 1 (NotWhole "T")
 
 -- | Value of a number as a floating-point number.
-decimal :: Number -> Double
-decimal (Number d k) = fromIntegral d / 10 ^ k
+decimal :: GcodeNumber -> Double
+decimal (GcodeNumber d k) = fromIntegral d / 10 ^ k
 
 -- | Part of the state after a line with these codes: the value of the code that it has, else the
 -- value before.
@@ -230,7 +235,7 @@ toolChange s now
   | 60 `notElem` mCodes s = Right (now, [])
   | otherwise =
     Right
-      ( now {modal = changed, place = Place Anywhere Anywhere height},
+      ( now {modal = changed, place = ToolPlace Anywhere Anywhere height},
         [Step n changed (Changes (valueOf (selectedTool m)))]
       )
   where
@@ -246,81 +251,92 @@ toolChange s now
           spindle = SetAt n SpindleStopped
         }
 
--- | The modes that are set after a tool change and before the motion. What changes the zero of the
+-- | The modes that are set after a tool change and before the motion. A change of the zero of the
 -- work coordinates makes the position unknown.
 modesBehind :: Sorted -> Running -> Running
-modesBehind s now = now {modal = m', place = place'}
+modesBehind s now = now {modal = changed, place = placeAfter m changed (place now)}
   where
     n = lineNumber (block s)
     m = modal now
-    gs = gCodes s
-    choose = chosen n gs
-    m' =
+    choose = chosen n (gCodes s)
+    chooseM = chosen n (mCodes s)
+    changed =
       m
         { spindle =
-            chosen
-              n
-              (mCodes s)
+            chooseM
               (spindle m)
               [ (30, SpindleTurning Clockwise),
                 (40, SpindleTurning CounterClockwise),
                 (50, SpindleStopped)
               ],
           coolant =
-            chosen
-              n
-              (mCodes s)
-              (coolant m)
-              [(70, CoolantRunning), (80, CoolantRunning), (90, CoolantOff)],
+            chooseM (coolant m) [(70, CoolantRunning), (80, CoolantRunning), (90, CoolantOff)],
           plane = choose (plane m) [(170, PlaneXY), (180, PlaneZX), (190, PlaneYZ)],
           diameters = choose (diameters m) [(70, True), (80, False)],
           compensates = choose (compensates m) [(400, False)],
-          toolLength = lengthAfter,
+          toolLength = lengthAfter s m,
           workOffset = choose (workOffset m) [(10 * k, k) | k <- [54 .. 59]],
-          pathMode = choose (pathMode m) [(610, ExactPath), (611, ExactPath), (640, blended)],
+          pathMode = choose (pathMode m) [(610, ExactPath), (611, ExactPath), (640, blended s m)],
           distances = choose (distances m) [(900, Absolute), (910, Incremental)],
           arcCentres = choose (arcCentres m) [(901, Absolute), (911, Incremental)],
-          feed = maybe (feed m) (SetAt n . feedValue) (given 'F' s),
-          motionMode = motionAfter
+          feed = maybe (feed m) (SetAt n . mmOfNumber m) (given 'F' s),
+          motionMode = motionAfter s m
         }
-    feedValue k = decimal k * (if valueOf (units m) == Just Inches then 25.4 else 1)
-    lengthAfter
-      | 490 `elem` gs = SetAt n NoLength
-      | 430 `elem` gs = case given 'H' s of
-        Just k -> maybe Unset (SetAt n . LengthOf) (isWhole k)
-        Nothing -> maybe Unset (SetAt n . LengthOf) (valueOf (toolInSpindle m))
-      | otherwise = toolLength m
-    -- Q is the tolerance of the merging of short motions; without Q it is P.
-    blended = Blended $ case given 'P' s of
-      Just p | digits p > 0 -> Just (Mm (mmOf p + maybe (mmOf p) mmOf (given 'Q' s)))
-      _ -> Nothing
-    mmOf = mmOfNumber m
-    motionAfter
-      | 800 `elem` gs = Unset
-      | otherwise = motionChosen
-    motionChosen =
-      choose
-        (motionMode m)
-        [ (0, RapidMode),
-          (10, LinearMode),
-          (20, ArcMode Clockwise),
-          (30, ArcMode CounterClockwise)
-        ]
-    place'
-      | valueOf (workOffset m') /= valueOf (workOffset m) =
-        (withoutHeight (place now)) {placeX = Anywhere, placeY = Anywhere}
-      | valueOf (toolLength m') /= valueOf (toolLength m) = withoutHeight (place now)
-      | otherwise = place now
-    withoutHeight p = case placeZ p of
+
+-- | The length of the tool after a line.
+lengthAfter :: Sorted -> ModalState -> Modal ToolLength
+lengthAfter s m
+  | 490 `elem` gCodes s = SetAt n NoLength
+  | 430 `elem` gCodes s = case given 'H' s of
+    Just k -> maybe Unset (SetAt n . LengthOf) (isWhole k)
+    Nothing -> maybe Unset (SetAt n . LengthOf) (valueOf (toolInSpindle m))
+  | otherwise = toolLength m
+  where
+    n = lineNumber (block s)
+
+-- | The path mode of G64. Q is the tolerance of the merging of short motions; without Q it is P.
+blended :: Sorted -> ModalState -> PathMode
+blended s m = Blended $ case given 'P' s of
+  Just p | digits p > 0 -> Just (Mm (mm p + maybe (mm p) mm (given 'Q' s)))
+  _ -> Nothing
+  where
+    mm = mmOfNumber m
+
+-- | The motion mode after a line. G80 ends all motion modes.
+motionAfter :: Sorted -> ModalState -> Modal MotionMode
+motionAfter s m
+  | 800 `elem` gCodes s = Unset
+  | otherwise =
+    chosen
+      (lineNumber (block s))
+      (gCodes s)
+      (motionMode m)
+      [ (0, RapidMode),
+        (10, LinearMode),
+        (20, ArcMode Clockwise),
+        (30, ArcMode CounterClockwise)
+      ]
+
+-- | The position in work coordinates after a change of the state from @before@ to @after@: unknown
+-- where the zero of the coordinates has changed.
+placeAfter :: ModalState -> ModalState -> ToolPlace -> ToolPlace
+placeAfter before after p
+  | valueOf (workOffset after) /= valueOf (workOffset before) =
+    withoutHeight {placeX = Anywhere, placeY = Anywhere}
+  | valueOf (toolLength after) /= valueOf (toolLength before) = withoutHeight
+  | otherwise = p
+  where
+    withoutHeight = case placeZ p of
       At _ -> p {placeZ = Anywhere}
-      _ -> p
+      Retracted -> p
+      Anywhere -> p
 
 -- | Value in mm of a number, in the units of the state.
-mmOfNumber :: ModalState -> Number -> Double
+mmOfNumber :: ModalState -> GcodeNumber -> Double
 mmOfNumber m k = decimal k * (if valueOf (units m) == Just Inches then 25.4 else 1)
 
 -- | Value in picometres of a number, in the units of the state.
-picometresOf :: ModalState -> Number -> Int
+picometresOf :: ModalState -> GcodeNumber -> Int
 picometresOf m k = case valueOf (units m) of
   Just Inches -> scaled 8 k * 254
   _ -> scaled 8 k * 10
@@ -373,8 +389,8 @@ motionOf form s now
       _ -> False
 
 -- | Position at the end of the motion of a line.
-targetOf :: ProgramForm -> Sorted -> Running -> Either Fault Place
-targetOf form s now = Place <$> along 'X' placeX <*> along 'Y' placeY <*> along 'Z' placeZ
+targetOf :: ProgramForm -> Sorted -> Running -> Either Fault ToolPlace
+targetOf form s now = ToolPlace <$> along 'X' placeX <*> along 'Y' placeY <*> along 'Z' placeZ
   where
     b = block s
     m = modal now
@@ -416,14 +432,14 @@ toReference form s now
     names c = c `elem` map letter axes
     p = place now
     target =
-      Place
+      ToolPlace
         (if names 'X' then Anywhere else placeX p)
         (if names 'Y' then Anywhere else placeY p)
         (if names 'Z' then Retracted else placeZ p)
     travel = Travel RapidMode p target Nothing
 
 -- | Centre of an arc, in the plane of the state.
-arcCentre :: Sorted -> Sense -> Running -> Place -> Either Fault (Int, Int)
+arcCentre :: Sorted -> Sense -> Running -> ToolPlace -> Either Fault (Int, Int)
 arcCentre s sense now target = do
   (begin, finish) <- maybe (faultAt b 1 (UnknownPosition 'X')) Right ends
   case given 'R' s of

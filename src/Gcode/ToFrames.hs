@@ -7,7 +7,7 @@
 --
 -- Commands are given in the frames as "Frame.CommandState" orders them.
 module Gcode.ToFrames
-  ( Reading (..),
+  ( GcodeReading (..),
     ReadFrame (..),
     reading,
   )
@@ -34,7 +34,7 @@ import Part.Part (Sense (..))
 import Part.Part qualified as Part
 
 -- | Frames of a file, and all its actions.
-data Reading = Reading
+data GcodeReading = GcodeReading
   { readFrames :: [ReadFrame],
     steps :: [Step],
     -- | largest distance in mm, along one axis, of a position in the file from the nearest pulse
@@ -62,11 +62,12 @@ data Converting = Converting
   }
 
 -- | Frames of the actions of a file. @level@ is the height in pulses from which on the tool is
--- above everything; Nothing if no height in work coordinates is. @start@ is the position of the program
--- before its first frame, and @first@ the number of the tool that the program has loaded then.
-reading :: Machine -> Maybe Pulses -> Maybe Int -> Pulses3 -> [Step] -> Reading
+-- above everything; Nothing if no height in work coordinates is. @start@ is the position of the
+-- program before its first frame, and @first@ the number of the tool that the program has loaded
+-- then.
+reading :: Machine -> Maybe Pulses -> Maybe Int -> Pulses3 -> [Step] -> GcodeReading
 reading machine level first start list =
-  Reading
+  GcodeReading
     { readFrames = reverse (made end),
       steps = list,
       offGrid = Mm (lost end)
@@ -229,7 +230,7 @@ planeOf machine = case letterOf machine X of
 
 -- | Position in pulses along the axes of the part, and the largest distance in mm of a coordinate
 -- from its pulse. Nothing if a coordinate is not known.
-inPulses :: Machine -> Place -> Maybe (Pulses3, Double)
+inPulses :: Machine -> ToolPlace -> Maybe (Pulses3, Double)
 inPulses machine place = do
   (x, dx) <- along X
   (y, dy) <- along Y

@@ -22,7 +22,7 @@ import Frame.Command qualified as Command
 import Frame.Frame (Frame (..), FrameMotion (..), FrameProgram (..), PlannedFrame (..))
 import Frame.Frame qualified as Frame
 import Gcode.Dialect qualified as Dialect
-import Gcode.Heading (Heading (..))
+import Gcode.Heading (FileHeading (..))
 import Gcode.Heading qualified as Heading
 import Geometry.Carrier qualified as Carrier
 import Geometry.Segment qualified as Segment
@@ -63,7 +63,7 @@ data Writing = Writing
 
 -- | Files of a program. @bound@ is the largest deviation in mm from the path that the control may
 -- make at corners; Nothing for an exact path.
-write :: Machine -> ProgramForm -> Heading -> Maybe Mm -> FrameProgram -> [ToolFile]
+write :: Machine -> ProgramForm -> FileHeading -> Maybe Mm -> FrameProgram -> [ToolFile]
 write machine form heading bound program =
   [ ToolFile (if isOneFile then Nothing else toolOf part) (Text.unlines (fileLines context part))
     | part <- parts
@@ -87,7 +87,7 @@ data FilePart = FilePart
 
 -- | Parts of a program with one tool each.
 byTool :: Machine -> FilePart -> [FilePart]
-byTool machine part = case break (not . null . changesIn) (framesOf part) of
+byTool machine part = case span (null . changesIn) (framesOf part) of
   (_, []) -> [part]
   (own, change : more) ->
     part {framesOf = own} :
@@ -113,7 +113,7 @@ byTool machine part = case break (not . null . changesIn) (framesOf part) of
 data Context = Context
   { machine :: Machine,
     form :: ProgramForm,
-    heading :: Heading,
+    heading :: FileHeading,
     bound :: Maybe Mm
   }
 
@@ -185,8 +185,8 @@ headTexts context@Context {machine, form, heading} part =
     title = partTitle heading
     MachineName name = Machine.name machine
 
--- | What the operator has to do before the start.
-operatorTexts :: ProgramForm -> Heading -> [Text]
+-- | Tasks of the operator before the start.
+operatorTexts :: ProgramForm -> FileHeading -> [Text]
 operatorTexts form heading =
   [ if ProgramForm.takesLengths (dialect form)
       then "set the work offset G" <> Decimal.whole (workOffset heading) <> " and the tool lengths"
@@ -398,25 +398,43 @@ dwellLine form (Seconds t) = "G4 P" <> Decimal.short 3 (t / Dialect.dwellPerUnit
 
 -- | Lines of the motion of a frame. A tool that is away comes down first.
 motionLines :: Context -> Writing -> Frame -> (Writing, [Text])
-motionLines context@Context {machine} now f
+motionLines context@Context {machine, form} now f
   | not (Frame.isMoving f) = (now, [])
-  | otherwise = (moved, down <> [own])
+  | otherwise = (moved, (if isAway now then descentLines context now else []) <> [own])
   where
-    down
-      | isAway now =
-        ["M8" | isCoolantPaused now]
-          <> [ rapidWord <> Text.unwords (mapMaybe axisHere [X, Y]) <> feedOfRapid,
-               rapidWord <> fromMaybe "" (axisHere Z) <> feedOfRapid
-             ]
-      | otherwise = []
-    axisHere = axisText machine (at now)
-    rapidWord = "G0 "
-    feedOfRapid = rapidFeed context
     end = at now + increment f
     own =
-      Text.unwords (motionWord : axisWords <> centreWords) <> case motion f of
-        Rapid -> feedOfRapid
+      motionText machine end f <> case motion f of
+        Rapid -> rapidFeed context
         _ -> feedText
+    feedText
+      | written == Just (feedCode f) = ""
+      | otherwise = let FeedCode n = feedCode f in " F" <> feedNumber context n
+    written = if isAway now then Nothing else feedWritten now
+    moved =
+      now
+        { at = end,
+          isAway = False,
+          isCoolantPaused = False,
+          feedWritten = case motion f of
+            Rapid -> if dialect form == Marlin then Nothing else written
+            _ -> Just (feedCode f)
+        }
+
+-- | Lines that take a tool from the retract height to its position: x and y first, then z.
+descentLines :: Context -> Writing -> [Text]
+descentLines context@Context {machine} now =
+  ["M8" | isCoolantPaused now]
+    <> [ "G0 " <> Text.unwords (mapMaybe here [X, Y]) <> rapidFeed context,
+         "G0 " <> fromMaybe "" (here Z) <> rapidFeed context
+       ]
+  where
+    here = axisText machine (at now)
+
+-- | Words of the motion of a frame to a position, without its feed.
+motionText :: Machine -> Pulses3 -> Frame -> Text
+motionText machine end f = Text.unwords (motionWord : axisWords <> centreWords)
+  where
     motionWord = case motion f of
       Rapid -> "G0"
       Circular Carrier.Clockwise -> "G2"
@@ -425,31 +443,15 @@ motionLines context@Context {machine} now f
     axisWords =
       [ word
         | axis <- [X, Y, Z],
-          isMoved axis || isFullCircle && axis /= Z,
+          component axis (increment f) /= 0 || isFullCircle && axis /= Z,
           word <- maybeToList (axisText machine end axis)
       ]
     isFullCircle = increment f == 0
-    isMoved axis = component axis (increment f) /= 0
     centreWords = case motion f of
       Circular _ ->
         let Pulses2 i j = centre f
-         in [ scaledText machine (Centre axis) n
-              | (axis, n) <- [(X, i), (Y, j)]
-            ]
+         in [scaledText machine (Centre axis) n | (axis, n) <- [(X, i), (Y, j)]]
       _ -> []
-    feedText
-      | feedWritten now' == Just (feedCode f) = ""
-      | otherwise = let FeedCode n = feedCode f in " F" <> feedNumber context n
-    now' = if isAway now then now {feedWritten = Nothing} else now
-    moved =
-      now
-        { at = end,
-          isAway = False,
-          isCoolantPaused = False,
-          feedWritten = case motion f of
-            Rapid -> if dialect (form context) == Marlin then Nothing else feedWritten now'
-            _ -> Just (feedCode f)
-        }
 
 -- | Number of a feed word. Some controls want a point in it.
 feedNumber :: Context -> Int -> Text

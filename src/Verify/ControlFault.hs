@@ -245,7 +245,9 @@ wrongPlane :: Bool -> Wording
 wrongPlane isUnset =
   Wording
     { title =
-        if isUnset then "no line selects the plane of this cut" else "this cut is in another plane than the part",
+        if isUnset
+          then "no line selects the plane of this cut"
+          else "this cut is in another plane than the part",
       here = cuts,
       there = "another plane from here on",
       reason =

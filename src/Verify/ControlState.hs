@@ -1,9 +1,9 @@
 -- | Judges the state of a modern control at each motion of a file: units, plane, modes, work
 -- offset, tool and its length, spindle and path mode.
 --
--- What a file does not set is what the program before has left, so it is wrong as well. Commands
--- that differ from those of the program, such as another tool or speed, are found by the comparison
--- of the frames ("Verify.FrameRule").
+-- A value that a file does not set is the one that the program before has left, so it is wrong as
+-- well. Commands that differ from those of the program, such as another tool or speed, are found by
+-- the comparison of the frames ("Verify.FrameRule").
 module Verify.ControlState
   ( StateDemand (..),
     findings,
@@ -16,7 +16,7 @@ import Data.List (foldl')
 import Data.Maybe (isNothing, mapMaybe)
 import Data.Set qualified as Set
 import Gcode.ModalState
-import Gcode.Run (Action (..), Coordinate (..), Place (..), Step (..), Travel (..))
+import Gcode.Run (Action (..), Coordinate (..), ToolPlace (..), Step (..), Travel (..))
 import Machine.ProgramForm (ProgramForm (..))
 import Machine.ProgramForm qualified as ProgramForm
 import Verify.ControlFault (ControlFault (..), ControlFinding (..), ControlMode (..))
@@ -32,8 +32,8 @@ data StateDemand = StateDemand
     level :: Maybe Int,
     -- | height in picometres from which on the motions of the file are not those of the program
     excursion :: Maybe Int,
-    -- | height in picometres from which on rapid moves pass over everything, if their axes may arrive
-    -- one after the other; Nothing if they move along a straight line
+    -- | height in picometres from which on rapid moves pass over everything, if their axes may
+    -- arrive one after the other; Nothing if they move along a straight line
     boxLevel :: Maybe Int,
     -- | true if the operator switches the spindle
     isByHand :: Bool
@@ -71,7 +71,7 @@ judged form demand step = case action step of
       (_, At b) -> maybe True (b <) (level demand)
       _ -> False
 
--- | What has to be settled before the tool comes down: units, distances, offset, length.
+-- | Faults of the state in which the tool comes down: units, distances, offset, length.
 settled :: ProgramForm -> StateDemand -> Step -> [ControlFinding]
 settled form demand step =
   [finding (units m) UnitsUnknown | isNothing (valueOf (units m))]
@@ -105,7 +105,7 @@ lengthFault tool taken = case taken of
     | Just n == tool -> Nothing
     | otherwise -> Just (LengthOfAnother n tool)
 
--- | What a cut needs besides.
+-- | Further faults of the state in which the tool cuts.
 cutState :: StateDemand -> Step -> Travel -> [ControlFinding]
 cutState demand step travel =
   (if isByHand demand then [] else spindleFindings)

@@ -19,11 +19,11 @@ import Data.Text qualified as Text
 import Frame.Frame (Frame (increment), FrameProgram, PlannedFrame (frame))
 import Frame.Frame qualified as Frame
 import Gcode.Block (Fault)
-import Gcode.Heading (Heading (..))
+import Gcode.Heading (FileHeading (..))
 import Gcode.Heading qualified as Heading
 import Gcode.ModalState (Plane (..))
 import Gcode.Run qualified as Run
-import Gcode.ToFrames (ReadFrame (..), Reading (..))
+import Gcode.ToFrames (GcodeReading (..), ReadFrame (..))
 import Gcode.ToFrames qualified as ToFrames
 import Machine.Machine (Machine, ProgramForm (..))
 import Machine.Machine qualified as Machine
@@ -36,7 +36,13 @@ import Verify.Proof (ContourProof (..), Finding (LeavesPath), Proof (..), Witnes
 
 -- | Reads the files of a program. Lines are counted over all files together. @program@ has the
 -- planned frames.
-readTexts :: Machine -> ProgramForm -> Heading -> FrameProgram -> [Text] -> Either Fault Reading
+readTexts ::
+  Machine ->
+  ProgramForm ->
+  FileHeading ->
+  FrameProgram ->
+  [Text] ->
+  Either Fault GcodeReading
 readTexts machine form heading program texts =
   ToFrames.reading
     machine
@@ -58,7 +64,7 @@ readTexts machine form heading program texts =
 
 -- | Height in pulses from which on the tool is above everything; Nothing if no height in work
 -- coordinates is.
-levelOf :: Machine -> ProgramForm -> Heading -> Maybe Pulses
+levelOf :: Machine -> ProgramForm -> FileHeading -> Maybe Pulses
 levelOf machine form heading = case Heading.safeHeightOn form heading of
   Just (Mm z) -> Just (Pulses (ceiling (z / resolution - 1.0e-6)))
   Nothing -> Nothing
@@ -67,7 +73,7 @@ levelOf machine form heading = case Heading.safeHeightOn form heading of
 
 -- | Height in pulses from which on a motion is not one of the program: the height above everything,
 -- or one pulse more if the program itself moves there.
-excursionOf :: Machine -> ProgramForm -> Heading -> FrameProgram -> Maybe Pulses
+excursionOf :: Machine -> ProgramForm -> FileHeading -> FrameProgram -> Maybe Pulses
 excursionOf machine form heading program = beyond <$> levelOf machine form heading
   where
     beyond z = if highest >= z then highest + 1 else z
@@ -77,17 +83,17 @@ excursionOf machine form heading program = beyond <$> levelOf machine form headi
     height (Pulses3 _ _ z) = z
 
 -- | Frames that were read.
-framesRead :: Reading -> [Frame]
+framesRead :: GcodeReading -> [Frame]
 framesRead = map readFrame . readFrames
 
 -- | Number of the line of a frame, which is counted from 1.
-lineOfFrame :: Reading -> Int -> Maybe Int
+lineOfFrame :: GcodeReading -> Int -> Maybe Int
 lineOfFrame reading n = case drop (n - 1) (readFrames reading) of
   f : _ | n > 0 -> Just (readFrom f)
   _ -> Nothing
 
 -- | State of the control that a program asks for.
-demandOf :: Machine -> ProgramForm -> Heading -> FrameProgram -> StateDemand
+demandOf :: Machine -> ProgramForm -> FileHeading -> FrameProgram -> StateDemand
 demandOf machine form heading program =
   StateDemand
     { offset = workOffset heading,
@@ -126,7 +132,7 @@ blendingBound machine proof = case mapMaybe left (contourProofs proof) of
 -- control may leave the path by is added to all deviations. If the control reads the numbers of the
 -- file in another way than the program means them, the findings of the path are left out: they
 -- would only follow from that.
-judged :: Machine -> ProgramForm -> Heading -> FrameProgram -> Reading -> Proof -> Proof
+judged :: Machine -> ProgramForm -> FileHeading -> FrameProgram -> GcodeReading -> Proof -> Proof
 judged machine form heading program reading proof =
   proof
     { contourProofs = map farther (contourProofs proof),
