@@ -438,8 +438,8 @@ warningReport machine warning = case warning of
         ("the proof for " <> machineName machine <> " covers the path of the cutter only")
     )
       { message =
-          [ "It does not cover how the tool comes to the start, the length of the tool, and how far \
-            \the control rounds corners. The file does not say them."
+          [ "It does not cover how the tool comes to the start, the length of the tool, and how \
+            \far the control rounds corners. The file does not say them."
           ],
         hints =
           [ "Compile for the control that reads the file, such as linuxcnc-mill or grbl: its file \

@@ -149,8 +149,8 @@ toolErrors machine form heading path =
       isNothing (firstTool heading)
   ]
 
--- | Error of a program without a safe height, on a control that needs one, or of a program that goes
--- higher.
+-- | Error of a program without a safe height, on a control that needs one, or of a program that
+-- goes higher.
 safeErrors :: Machine -> ProgramForm -> FileHeading -> Toolpath -> FrameProgram -> [Report]
 safeErrors machine form heading path program = case retract form of
   MachineHeight _ -> []

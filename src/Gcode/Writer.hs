@@ -156,16 +156,15 @@ fileLines context part =
           turns = False
         }
 
--- | Position at which the tool comes down first, and the frames from there on: rapid moves straight
--- up at the beginning are left out, because the tool comes from above.
+-- | Position at which the tool comes down first, and the frames from there on: a rapid move
+-- straight up at the beginning is left out, because the tool comes from above. Its commands stay.
 landing :: Pulses3 -> [Frame] -> (Pulses3, [Frame])
-landing begin frames = case frames of
-  f : more
+landing begin frames = case break Frame.isMoving frames of
+  (commanding, f : more)
     | motion f == Rapid,
       Pulses3 0 0 z <- increment f,
-      z > 0,
-      null (commands f) ->
-      landing (begin + increment f) more
+      z > 0 ->
+      (begin + increment f, commanding <> [Frame.commandFrame (commands f)] <> more)
   _ -> (begin, frames)
 
 -- | Texts of the comments at the head of a file.

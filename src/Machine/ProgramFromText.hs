@@ -60,7 +60,9 @@ programForm s = do
 -- | Reads the height to which the tool goes first.
 retractFrom :: Statement -> Result w Error Retract
 retractFrom =
-  withArguments ["retract machine 0 mm", "retract reference", "retract safe", "retract safe 40 mm"] form
+  withArguments
+    ["retract machine 0 mm", "retract reference", "retract safe", "retract safe 40 mm"]
+    form
   where
     form :: [Argument] -> Maybe (Result w Error Retract)
     form args = case map value args of

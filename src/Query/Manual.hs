@@ -56,12 +56,7 @@ statements =
         ("nose", "Gives the radius of the nose of a turning tool."),
         ("tip", "Gives the direction of the tip of a turning tool, as a tool table has it.")
       ]
-    <> under
-      "language.md#settings-for-modern-controls"
-      [ ("work", "Gives the work offset, from 54 to 59."),
-        ("program", "Gives the number of the program, from 1 to 9999."),
-        ("safe", "Gives the height above all clamps, for controls without homing.")
-      ]
+    <> controlSettings
     <> under
       "language.md#tolerance"
       [("tolerance", "Gives the permitted chord error.")]
@@ -82,6 +77,15 @@ statements =
     <> under
       "language.md#transformations"
       [("with", "Applies a transformation to the machining in its block.")]
+
+controlSettings :: [(Text, ManualEntry)]
+controlSettings =
+  under
+    "language.md#settings-for-modern-controls"
+    [ ("work", "Gives the work offset, from 54 to 59."),
+      ("program", "Gives the number of the program, from 1 to 9999."),
+      ("safe", "Gives the height above all clamps, for controls without homing.")
+    ]
 
 definitions :: [(Text, ManualEntry)]
 definitions =

@@ -106,9 +106,7 @@ ofStatement (Located _ s) = case s of
   Drill e deep settings -> e : deep : concatMap ofSetting settings
   Travel _ stops -> concatMap ofStop (NonEmpty.toList stops)
   Change e c place -> e : ofCutter c <> maybeToList place
-  Spindle (Spinning _ e) -> maybeToList e
-  Spindle SpindleStop -> []
-  Spindle SpindleByHand -> []
+  Spindle spin -> ofSpin spin
   Coolant _ -> []
   Auxiliary e -> [e]
   ProgramStop -> []
@@ -118,6 +116,13 @@ ofStatement (Located _ s) = case s of
   When e _ _ -> [e]
   With e _ -> [e]
   Broken _ _ -> []
+
+-- | Speed of a spindle statement, if it has one.
+ofSpin :: Spin -> [Expr]
+ofSpin spin = case spin of
+  Spinning _ e -> maybeToList e
+  SpindleStop -> []
+  SpindleByHand -> []
 
 -- | An expression and all its parts.
 everywhere :: Expr -> [Expr]
