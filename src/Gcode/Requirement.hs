@@ -222,4 +222,4 @@ boxMoves path =
 
 -- | Position in pulses at which the tool comes down first.
 landingOf :: FrameProgram -> Pulses3
-landingOf (FrameProgram begin planned) = fst (Writer.landing begin (map frame planned))
+landingOf (FrameProgram begin planned) = Writer.landing begin (map frame planned)

@@ -144,11 +144,10 @@ fileLines context part =
         | dialect (form context) == Fanuc,
           n <- maybeToList (programNumber (heading context))
       ]
-    (final, motions) = frameLines context now rest
-    (at, rest) = landing (begins part) (framesOf part)
+    (final, motions) = frameLines context now (framesOf part)
     now =
       Writing
-        { at,
+        { at = begins part,
           isAway = True,
           feedWritten = Nothing,
           hasCoolant = isCooled part,
@@ -156,16 +155,18 @@ fileLines context part =
           turns = False
         }
 
--- | Position at which the tool comes down first, and the frames from there on: a rapid move
--- straight up at the beginning is left out, because the tool comes from above. Its commands stay.
-landing :: Pulses3 -> [Frame] -> (Pulses3, [Frame])
-landing begin frames = case break Frame.isMoving frames of
-  (commanding, f : more)
-    | motion f == Rapid,
-      Pulses3 0 0 z <- increment f,
-      z > 0 ->
-      (begin + increment f, commanding <> [Frame.commandFrame (commands f)] <> more)
-  _ -> (begin, frames)
+-- | Position at which the tool comes down first: after a rapid move straight up, if that is the
+-- first motion.
+landing :: Pulses3 -> [Frame] -> Pulses3
+landing begin frames = case filter Frame.isMoving frames of
+  f : _ | isRise f -> begin + increment f
+  _ -> begin
+
+-- | True for a rapid move straight up.
+isRise :: Frame -> Bool
+isRise f = case increment f of
+  Pulses3 0 0 z -> motion f == Rapid && z > 0
+  _ -> False
 
 -- | Texts of the comments at the head of a file.
 headTexts :: Context -> FilePart -> [(Text, Text)]
@@ -399,6 +400,8 @@ dwellLine form (Seconds t) = "G4 P" <> Decimal.short 3 (t / Dialect.dwellPerUnit
 motionLines :: Context -> Writing -> Frame -> (Writing, [Text])
 motionLines context@Context {machine, form} now f
   | not (Frame.isMoving f) = (now, [])
+  -- The tool comes from above, so it comes down to the end of the move.
+  | isAway now && isRise f = (moved, descentLines context now {at = end})
   | otherwise = (moved, (if isAway now then descentLines context now else []) <> [own])
   where
     end = at now + increment f
