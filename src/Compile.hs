@@ -31,6 +31,7 @@ module Compile
   )
 where
 
+import Base.Quantity (LengthUnit)
 import Base.Region (Position (..), Region (Region), Source)
 import Base.Region qualified as Region
 import Base.Result
@@ -57,7 +58,6 @@ import Frame.Frame (FrameProgram)
 import Frame.Frame qualified as Frame
 import Frame.FromToolpath qualified as Frame
 import Gcode.FaultReport qualified as FaultReport
-import Gcode.Heading (FileHeading)
 import Gcode.Heading qualified as Heading
 import Gcode.Requirement qualified as Requirement
 import Gcode.ToFrames (GcodeReading)
@@ -69,6 +69,7 @@ import Part.ContourStart qualified as ContourStart
 import Part.Error qualified as Part
 import Part.FromChecked qualified as Part
 import Part.Part (Part)
+import Part.Part qualified as Part
 import Project.Error qualified as Project
 import Project.Job (Job (..), Verification (..))
 import Project.LoadedProgram (LoadedProgram (isSheet, source, surface))
@@ -85,6 +86,7 @@ import Tape.Tape (Tape)
 import Toolpath.Error qualified as Toolpath
 import Toolpath.FromPart qualified as Toolpath
 import Toolpath.Toolpath (Toolpath, isCompensated, withoutCuts)
+import Toolpath.Toolpath qualified as Toolpath
 import Verify.ControlFault qualified as ControlFault
 import Verify.FromGcode qualified as FromGcode
 import Verify.FromPulses qualified as FromPulses
@@ -121,13 +123,13 @@ evaluate values loaded = do
         (BareNumber.typesOfNames (Checked.mentions checked))
         written
     )
-  (checked,) <$> mapErrors id (located . partReport) (Part.evaluate checked)
+  (checked,) <$> mapErrors id (located . partReport (Checked.unit checked)) (Part.evaluate checked)
   where
     fileOf at = file (Region.position (source loaded) (Region.start at))
     -- Only users of input sheets know the control stops of the Minsk-22 system.
-    partReport
-      | isSheet loaded = Report.withControlStop . Part.toReport
-      | otherwise = Part.toReport
+    partReport unit
+      | isSheet loaded = Report.withControlStop . Part.toReport unit
+      | otherwise = Part.toReport unit
 
 -- | A result without the errors on lines of the program that cannot be parsed, of which the given
 -- reports are: on such a line, words are taken for names that are none.
@@ -162,8 +164,11 @@ plan :: (Checked.Program, Part) -> Result Report Report Analysis
 plan (checked, part) = do
   -- @mentions@ is evaluated now. So the checked program is freed before the toolpath is computed.
   mentions <- pure $! Checked.mentions checked
-  path <- mapErrors Toolpath.warningReport Toolpath.toReport (Toolpath.toToolpath part)
+  path <-
+    mapErrors (Toolpath.warningReport unit) (Toolpath.toReport unit) (Toolpath.toToolpath part)
   pure Analysis {mentions, part, path}
+  where
+    unit = Part.unit part
 
 -- | Runs all compiler passes up to the frames, for every machine of the job, and gives their errors
 -- and warnings. Makes no tape.
@@ -230,7 +235,7 @@ makeFiles form verification path machine =
         let bound = FromGcode.blendingBound machine onPath
             texts = Writer.write machine form heading bound (program punched)
             written = withFiles machine texts (program punched)
-        proof <- proveFiles machine form heading (program punched) onPath texts
+        proof <- proveFiles machine form toolpath (program punched) onPath texts
         pure Compiled {machine, toolpath, punched = written, proof = Just proof}
   where
     toolpath = withoutCuts path
@@ -240,12 +245,12 @@ makeFiles form verification path machine =
 proveFiles ::
   Machine ->
   ProgramForm ->
-  FileHeading ->
+  Toolpath ->
   FrameProgram ->
   Proof ->
   [ToolFile] ->
   Result Report Report Proof
-proveFiles machine form heading program onPath texts =
+proveFiles machine form toolpath program onPath texts =
   case FromGcode.readTexts machine form heading program (map Writer.fileText texts) of
     Left fault -> failed (inFile (FaultReport.toReport (\_ _ -> Region 0 0) fault))
     Right reading
@@ -253,9 +258,11 @@ proveFiles machine form heading program onPath texts =
         failed (Tape.toReport (Tape.Damage 1 Nothing Nothing Tape.Misread))
       | otherwise ->
         let proof = FromGcode.judged machine form heading program reading onPath
-            reports = gcodeReports machine form (const (Region 0 0)) proof
+            lineRegion = const (Region 0 0)
+            reports = gcodeReports (Toolpath.unit toolpath) machine form lineRegion proof
          in failing (map inFile reports) proof
   where
+    heading = Heading.fromToolpath toolpath
     inFile r = r {place = InFile, others = []}
 
 -- | Makes the tape that a machine without such a form reads.
@@ -273,22 +280,23 @@ makePunched verification path machine =
       Verified -> do
         frames <- mapErrors id Tape.toReport (fromEither readBack)
         Just <$> prove machine toolpath program frames
-    warned (readerWarning machine punched <> beginningWarning machine)
+    warned (readerWarning unit machine punched <> beginningWarning unit machine)
     pure Compiled {machine, toolpath, punched, proof}
   where
     toolpath = withoutCuts path
+    unit = Toolpath.unit toolpath
 
 -- | Warning of a text for a modern control whose beginning is not proven.
-beginningWarning :: Machine -> [Report]
-beginningWarning machine =
-  [ Frame.warningReport machine Frame.BeginningUnproven
+beginningWarning :: LengthUnit -> Machine -> [Report]
+beginningWarning unit machine =
+  [ Frame.warningReport unit machine Frame.BeginningUnproven
     | isNothing (Machine.pitch (Machine.medium machine))
   ]
 
 -- | Warning of frames within a cut that the machine does not read in time (Tape → Pulse).
-readerWarning :: Machine -> Punched -> [Report]
-readerWarning machine Punched {program, tape} =
-  [ Frame.warningReport machine (Frame.ReaderTooSlow (Frame.origin planned) n (length late))
+readerWarning :: LengthUnit -> Machine -> Punched -> [Report]
+readerWarning unit machine Punched {program, tape} =
+  [ Frame.warningReport unit machine (Frame.ReaderTooSlow (Frame.origin planned) n (length late))
     | n : _ <- [late],
       planned <- take 1 (drop (n - 1) (Frame.plannedFrames program))
   ]
@@ -316,7 +324,10 @@ punch machine path =
   -- Evaluated before the frames are made, so that the cutting moves do not stay in memory.
   compensated `seq` do
     program <-
-      mapErrors (Frame.warningReport machine) (Frame.toReport machine) (Frame.quantise machine path)
+      mapErrors
+        (Frame.warningReport unit machine)
+        (Frame.toReport unit machine)
+        (Frame.quantise machine path)
     let frames = map Frame.frame (Frame.plannedFrames program)
     -- The frames of a program without compensation need not be in memory as a whole.
     when compensated (noneOf (CompensationCheck.reports machine program))
@@ -329,6 +340,7 @@ punch machine path =
         pure (withFiles machine (Writer.write machine form heading Nothing program) program)
   where
     heading = Heading.fromToolpath path
+    unit = Toolpath.unit path
     compensated = isCompensated path
     noneOf refused = if null refused then pure () else Result [] refused Nothing
 
@@ -346,7 +358,8 @@ withFiles machine files program =
 -- → Control → Verify). The errors of the result are the findings: all that the proof has found
 -- wrong. If there are none, the tape is proven. @toolpath@ may be reduced by 'withoutCuts'.
 prove :: Machine -> Toolpath -> FrameProgram -> [Frame.Frame] -> Result Report Report Proof
-prove machine toolpath program frames = failing (Proof.toReports machine proof) proof
+prove machine toolpath program frames =
+  failing (Proof.toReports (Toolpath.unit toolpath) machine proof) proof
   where
     proof = Verify.prove machine toolpath program frames
 
@@ -354,8 +367,8 @@ prove machine toolpath program frames = failing (Proof.toReports machine proof) 
 -- program leaves open may begin anywhere on it ('ContourStart.isFree'). @part@ is the evaluated
 -- program. It is needed only if the tape begins a contour elsewhere than the compiler would.
 proveTape :: Maybe Part -> Compiled -> [Frame.Frame] -> Result Report Report Proof
-proveTape part compiled@Compiled {machine} frames =
-  failing (Proof.toReports machine proof) proof
+proveTape part compiled@Compiled {machine, toolpath} frames =
+  failing (Proof.toReports (Toolpath.unit toolpath) machine proof) proof
   where
     proof = fromAnyStart part compiled frames
 
@@ -383,18 +396,18 @@ proveGcode form part compiled@Compiled {machine, toolpath} reading =
     frames = FromGcode.framesRead reading
 
 -- | Reports of the proof of a file. @lineRegion@ gives the region of a line of the file.
-gcodeReports :: Machine -> ProgramForm -> (Int -> Region) -> Proof -> [Report]
-gcodeReports machine form lineRegion proof =
+gcodeReports :: LengthUnit -> Machine -> ProgramForm -> (Int -> Region) -> Proof -> [Report]
+gcodeReports unit machine form lineRegion proof =
   map (ControlFault.toReport form lineRegion) (Proof.controlFindings proof)
-    <> Proof.toReports machine proof
+    <> Proof.toReports unit machine proof
 
 -- | Runs a tape on the controller of the machine and compares its pulses with the motions of the
 -- frames (Tape → Pulse → Verify). The errors of the result are the findings. 'Nothing' if the
 -- machine's controller is not described, or if its model makes no pulses.
 provePulses :: Compiled -> Tape -> Maybe (Result Report Report PulseProof)
-provePulses Compiled {machine, punched} tape =
+provePulses Compiled {machine, toolpath, punched} tape =
   judged <$> FromPulses.prove machine console begin tape
   where
     console = Controller.consoleFor machine (Frame.plannedFrames (program punched))
     begin = Frame.start (program punched)
-    judged proof = failing (PulseProof.toReports machine proof) proof
+    judged proof = failing (PulseProof.toReports (Toolpath.unit toolpath) machine proof) proof

@@ -6,6 +6,7 @@
 -- without it a missing file is a failure.
 module ExamplesSpec (spec) where
 
+import Base.Quantity (LengthUnit (..))
 import Base.Result (Result (..))
 import Base.Result qualified as Result
 import Cli.FrameTable qualified as FrameTable
@@ -53,7 +54,9 @@ spec = describe "examples are proven and give their frames" $ do
         fmap Proof.findings proof `shouldBe` Just []
         expected
           (expectations </> run <.> "frames")
-          (FrameTable.frames machine source (program punched) <> rendered (warnings outcome))
+          ( FrameTable.frames Millimetres machine source (program punched)
+              <> rendered (warnings outcome)
+          )
       _ -> expectationFailure (Text.unpack (rendered (errors outcome)))
   where
     expectations = "examples/expected"

@@ -24,7 +24,7 @@ where
 
 import Base.Name (Name (..))
 import Base.PulseVector (Pulses3 (..))
-import Base.Quantity (Feed (..), Mm (..), Pulses (..), Rad (..))
+import Base.Quantity (Feed (..), LengthUnit (..), Mm (..), Pulses (..), Rad (..))
 import Base.Region (Located (..), Region (..))
 import Base.Result qualified as Result
 import Data.List (sort)
@@ -253,6 +253,7 @@ partOf at operation =
     { Part.name = Nothing,
       Part.title = Nothing,
       Part.machine = Nothing,
+      Part.unit = Millimetres,
       Part.start = Just (Located (Region 0 0) (Part.SpacePoint at (Mm 0))),
       Part.firstCutter = cutter,
       Part.firstToolNumber = Nothing,
@@ -291,6 +292,7 @@ straightPath x y =
     ]
     False
     Toolpath.noSetup
+    Millimetres
   where
     nowhere = Region 0 0
 

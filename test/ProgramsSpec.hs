@@ -28,6 +28,7 @@ import Surface.Import qualified as Import
 import System.Directory (doesFileExist, listDirectory)
 import System.FilePath (takeDirectory, takeExtension, takeFileName, (-<.>), (</>))
 import Test.Hspec
+import Toolpath.Toolpath qualified as Toolpath
 import Verify.Proof qualified as Proof
 
 spec :: Spec
@@ -42,11 +43,11 @@ spec = do
       let source = LoadedProgram.source loaded
           outcome = Compile.compile (job values loaded) loaded
       case Result.ifSound outcome of
-        Just [Compiled {machine, punched, proof}] -> do
+        Just [Compiled {machine, toolpath, punched, proof}] -> do
           fmap Proof.findings proof `shouldBe` Just []
           expected
             (file -<.> "frames")
-            ( FrameTable.frames machine source (program punched)
+            ( FrameTable.frames (Toolpath.unit toolpath) machine source (program punched)
                 <> rendered source (warnings outcome)
             )
         _ -> expectationFailure (Text.unpack (rendered source (errors outcome)))

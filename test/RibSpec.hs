@@ -1,6 +1,7 @@
 -- | The rib of examples/: the distances of its edge from the skin, and its page in docs/.
 module RibSpec (spec) where
 
+import Base.Quantity (LengthUnit (..))
 import Base.Result qualified as Result
 import Cli.FrameTable qualified as FrameTable
 import Cli.NodeTable qualified as NodeTable
@@ -49,6 +50,7 @@ spec = do
             Text.words
             ( Text.lines
                 ( FrameTable.frames
+                    Millimetres
                     lkp01f
                     (LoadedProgram.source (loaded program'))
                     (program punched)

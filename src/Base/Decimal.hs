@@ -9,13 +9,23 @@ module Base.Decimal
     leading,
     whole,
     unitText,
+    shortIn,
+    fixedIn,
+    inUnit,
+    nonZeroIn,
+    distinctIn,
+    fixedInUnit,
+    feedIn,
+    exactFeedIn,
+    areaIn,
+    shortAreaIn,
+    roundedDown,
+    stepsPerMm,
     mm,
-    nonZeroMm,
-    distinctMm,
   )
 where
 
-import Base.Quantity (LengthUnit (..), Mm (..))
+import Base.Quantity (Feed (..), LengthUnit (..), Mm (..), millimetresIn)
 import Data.Char (digitToInt, isDigit)
 import Data.Maybe (fromMaybe)
 import Data.Ratio ((%))
@@ -152,26 +162,84 @@ unitText unit = case unit of
   Millimetres -> "mm"
   Inches -> "in"
 
--- | The text of a length for a report: at most four decimals, and the unit.
-mm :: Mm -> Text
-mm (Mm x) = short 4 x <> " mm"
+-- | The number of a length in a unit, without the name of the unit, rounded without trailing zeros:
+-- to @decimals@ digits after the point in mm, and to one more in inches.
+shortIn :: LengthUnit -> Int -> Mm -> Text
+shortIn unit decimals (Mm x) = short (decimals + furtherDecimals unit) (x / millimetresIn unit)
 
--- | The text of the length @x@ for a report that also names the length @other@. Both are rounded to
--- four decimals or, if their texts are then equal, to the fewest decimals that distinguish them. If
--- even nine decimals do not distinguish them, the text has four.
-distinctMm :: Mm -> Mm -> Text
-distinctMm (Mm other) (Mm x) =
+-- | The same, with exactly these digits after the point.
+fixedIn :: LengthUnit -> Int -> Mm -> Text
+fixedIn unit decimals (Mm x) = fixed (decimals + furtherDecimals unit) (x / millimetresIn unit)
+
+-- | The count of decimals that a length in this unit has beyond that of one in mm.
+furtherDecimals :: LengthUnit -> Int
+furtherDecimals unit = case unit of
+  Millimetres -> 0
+  Inches -> 1
+
+-- | The text of a length for a report, with its unit: at most four decimals in mm, five in inches.
+inUnit :: LengthUnit -> Mm -> Text
+inUnit unit x = withUnit unit (shortIn unit 4 x)
+
+-- | The text of a length in mm for a report: at most four decimals, and the unit.
+mm :: Mm -> Text
+mm = inUnit Millimetres
+
+-- | The text of the length @x@ for a report that also names the length @other@. Both are rounded
+-- like those of 'inUnit' or, if their texts are then equal, to the fewest decimals that distinguish
+-- them. If even five more decimals do not distinguish them, the text is that of 'inUnit'.
+distinctIn :: LengthUnit -> Mm -> Mm -> Text
+distinctIn unit other x =
   case [ written
          | decimals <- [4 .. 9],
-           let written = short decimals x,
-           written /= short decimals other
+           let written = shortIn unit decimals x,
+           written /= shortIn unit decimals other
        ] of
-    written : _ -> written <> " mm"
-    [] -> mm (Mm x)
+    written : _ -> withUnit unit written
+    [] -> inUnit unit x
 
--- | The text of a length that is not 0, for a report. It has at most four decimals. Below 0.0001 mm
--- it has at most nine, because four could show 0.
-nonZeroMm :: Mm -> Text
-nonZeroMm (Mm x)
-  | abs x >= 0.0001 = mm (Mm x)
-  | otherwise = short 9 x <> " mm"
+-- | The text of a length that is not 0, for a report. It is that of 'inUnit', but has five more
+-- decimals if that one could show 0.
+nonZeroIn :: LengthUnit -> Mm -> Text
+nonZeroIn unit length'@(Mm x)
+  | abs x >= 0.0001 = inUnit unit length'
+  | otherwise = withUnit unit (shortIn unit 9 length')
+
+-- | The text of a feed for a report, with its unit: at most @decimals@ digits after the point in
+-- mm\/min, and one more in inches per minute.
+feedIn :: LengthUnit -> Int -> Feed -> Text
+feedIn unit decimals (Feed v) = withUnit unit (shortIn unit decimals (Mm v)) <> "/min"
+
+withUnit :: LengthUnit -> Text -> Text
+withUnit unit number = number <> " " <> unitText unit
+
+-- | The text of a feed with its unit and all its decimals, for a fix that writes the feed.
+exactFeedIn :: LengthUnit -> Feed -> Text
+exactFeedIn unit (Feed v) = withUnit unit (exact (v / millimetresIn unit)) <> "/min"
+
+-- | The text of a length with its unit and a fixed count of digits, see 'fixedIn'.
+fixedInUnit :: LengthUnit -> Int -> Mm -> Text
+fixedInUnit unit decimals x = withUnit unit (fixedIn unit decimals x)
+
+-- | The number of an area in mm² in the square of a unit, with exactly @decimals@ digits after the
+-- point in mm², and two more in square inches.
+areaIn :: LengthUnit -> Int -> Double -> Text
+areaIn unit decimals = fixed (decimals + 2 * furtherDecimals unit) . inSquares unit
+
+-- | The same, without trailing zeros.
+shortAreaIn :: LengthUnit -> Int -> Double -> Text
+shortAreaIn unit decimals = short (decimals + 2 * furtherDecimals unit) . inSquares unit
+
+inSquares :: LengthUnit -> Double -> Double
+inSquares unit area = area / (millimetresIn unit * millimetresIn unit)
+
+-- | The largest length that is not above @x@ and is a whole number of the steps of 'stepsPerMm'.
+roundedDown :: LengthUnit -> Mm -> Mm
+roundedDown unit (Mm x) = Mm (fromInteger (floor (x * steps)) / steps)
+  where
+    steps = stepsPerMm unit
+
+-- | The count of the steps in 1 mm to which reports round a limit: steps of 0.001 mm or of
+-- 0.0001 in.
+stepsPerMm :: LengthUnit -> Double
+stepsPerMm unit = 10 ^ (3 + furtherDecimals unit) / millimetresIn unit

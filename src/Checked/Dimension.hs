@@ -22,7 +22,8 @@ module Checked.Dimension
   )
 where
 
-import Base.Quantity (LengthUnit, millimetresIn)
+import Base.Decimal qualified as Decimal
+import Base.Quantity (LengthUnit (..), millimetresIn)
 import Data.Map.Strict (Map)
 import Data.Map.Strict qualified as Map
 import Data.Text (Text)
@@ -122,14 +123,14 @@ describe d@(Dimension m)
   | d == power (-1) (atom Time) = "a speed of rotation"
   | isUnknownSquare d = "an area or another square"
   | Map.null known = "a quantity"
-  | otherwise = "a quantity in " <> unitWord d
+  | otherwise = "a quantity in " <> unitWord Millimetres d
   where
     known = Map.filterWithKey (\a _ -> case a of Unknown _ -> False; _ -> True) m
 
--- | The unit of a dimension as reports write it: @mm@, @deg@, @mm^2@, @mm/min@. Unknowns are left
--- out. The text is empty for a plain number.
-unitWord :: Dimension -> Text
-unitWord (Dimension m) = case (factors (> 0), factors (< 0)) of
+-- | The unit of a dimension as reports write it: @mm@, @deg@, @mm^2@, @mm/min@, with the given unit
+-- of lengths. Unknowns are left out. The text is empty for a plain number.
+unitWord :: LengthUnit -> Dimension -> Text
+unitWord unit (Dimension m) = case (factors (> 0), factors (< 0)) of
   ([], []) -> ""
   (up, []) -> Text.intercalate "·" up
   (up, down) ->
@@ -141,7 +142,7 @@ unitWord (Dimension m) = case (factors (> 0), factors (< 0)) of
       Unknown _ -> False
       _ -> True
     name a = case a of
-      Length -> "mm"
+      Length -> Decimal.unitText unit
       Angle -> "deg"
       Time -> "min"
       PointWeight -> "point"

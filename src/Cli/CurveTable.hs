@@ -9,7 +9,7 @@ where
 
 import Base.Decimal qualified as Decimal
 import Base.Name (Name (..))
-import Base.Quantity (Mm (..))
+import Base.Quantity (LengthUnit, Mm (..), millimetresIn)
 import Base.Region (Located (..))
 import Cli.Table (Align (..))
 import Cli.Table qualified as Table
@@ -27,11 +27,12 @@ import Part.Part qualified as Part
 
 -- | The two tables of each fitted curve of the part.
 fittings :: Part -> [Text]
-fittings = map (uncurry fitting . \(Located _ name, f) -> (name, f)) . Part.fittings
+fittings part =
+  map (uncurry (fitting (Part.unit part)) . \(Located _ name, f) -> (name, f)) (Part.fittings part)
 
 -- | The table of sections and the table of deviations of the curve with the given name.
-fitting :: Name -> Fitting -> Text
-fitting (Name name) Fitting {sections, deviations, fittedPoints} =
+fitting :: LengthUnit -> Name -> Fitting -> Text
+fitting unit (Name name) Fitting {sections, deviations, fittedPoints} =
   "Curve "
     <> name
     <> ": "
@@ -53,7 +54,7 @@ fitting (Name name) Fitting {sections, deviations, fittedPoints} =
       [ Decimal.whole index,
         Decimal.whole (Section.first p) <> "–" <> Decimal.whole (Section.final p),
         kindWord p,
-        equation p,
+        equation unit p,
         fixed 4 (Section.largestDeviation p)
       ]
     kindWord p = case Section.kind (Section.curve p) of
@@ -63,22 +64,25 @@ fitting (Name name) Fitting {sections, deviations, fittedPoints} =
     row d =
       let p = fromMaybe (Vec.point 0 0) (fittedPoints Vector.!? (SectionFit.rowNumber d - 1))
        in [ Decimal.whole (SectionFit.rowNumber d),
-            Decimal.short 6 (Vec.x p),
-            Decimal.short 6 (Vec.y p),
+            Decimal.shortIn unit 6 (Mm (Vec.x p)),
+            Decimal.shortIn unit 6 (Mm (Vec.y p)),
             Decimal.whole (SectionFit.sectionNumber d),
             fixed 4 (SectionFit.signedDeviation d)
           ]
-    fixed n (Mm x) = Decimal.fixed n x
+    fixed n x = Decimal.fixedIn unit n x
 
--- | The equation of a section: a polynomial y(x) for a line or a parabola, centre and radius in mm
--- for an arc. The counts of decimals are those of the paper.
-equation :: Section.Section -> Text
-equation p = case Section.formula p of
-  Section.Polynomial 0 b c -> "y = " <> Decimal.fixed 7 b <> " x " <> signed 6 c
+-- | The equation of a section: a polynomial y(x) for a line or a parabola, in which x and y are in
+-- the unit, centre and radius for an arc. The counts of decimals are those of the paper.
+equation :: LengthUnit -> Section.Section -> Text
+equation unit p = case Section.formula p of
+  Section.Polynomial 0 b c -> "y = " <> Decimal.fixed 7 b <> " x " <> signed 6 (c / size)
   Section.Polynomial a b c ->
-    "y = " <> Decimal.fixed 8 a <> " x² " <> signed 7 b <> " x " <> signed 6 c
-  Section.Circle centre r -> "centre " <> Vec.toText 4 centre <> ", radius " <> Decimal.mm r
+    "y = " <> Decimal.fixed 8 (a * size) <> " x² " <> signed 7 b <> " x " <> signed 6 (c / size)
+  Section.Circle centre r ->
+    "centre " <> Vec.toText unit 4 centre <> ", radius "
+      <> Decimal.inUnit unit r
   where
+    size = millimetresIn unit
     signed n x = (if x < 0 then "− " else "+ ") <> Decimal.fixed n (abs x)
 
 -- | A count with its noun, which gets the plural ending unless the count is 1.

@@ -32,6 +32,7 @@ import Tape.Damage qualified as Damage
 import Tape.Punch qualified as Tape
 import Tape.RowMeaning (Row (..))
 import Tape.Tape (Tape (..))
+import Toolpath.Toolpath qualified as Toolpath
 import Verify.Proof (Proof)
 import Verify.Proof qualified as Proof
 
@@ -82,7 +83,7 @@ disproven compiled TapeFile {fileName, rows = given} frames source proof
   | otherwise = (source, differing found)
   where
     machine = Compile.machine compiled
-    found = Proof.toReports machine proof
+    found = Proof.toReports (Toolpath.unit (Compile.toolpath compiled)) machine proof
     base = Region.nextOffset source
     -- The findings that one change makes are one report, the first in the order of the tape.
     differing reports

@@ -9,7 +9,7 @@ where
 
 import Base.Decimal qualified as Decimal
 import Base.PulseVector (Pulses2 (..), Pulses3 (..))
-import Base.Quantity (Feed (..), Mm (..), Pulses (..))
+import Base.Quantity (Feed (..), LengthUnit (..), Mm (..), Pulses (..))
 import Base.Region (Position (..), Region (..), Source)
 import Base.Region qualified as Region
 import Cli.Table (Align (..))
@@ -40,9 +40,10 @@ data Numbered = Numbered {number :: Int, planned :: PlannedFrame, to :: Pulses3}
 
 -- | The table of the frames of a program. Each row ends with the number of the program's line from
 -- which the frame is made, and with the commands of the frame. The columns of kinds of motion, arc
--- centres, braking, heights and commands are left out if no frame needs them.
-frames :: Machine -> Source -> FrameProgram -> Text
-frames machine source program = table columns rows
+-- centres, braking, heights and commands are left out if no frame needs them. Positions and feeds
+-- have the given unit of lengths.
+frames :: LengthUnit -> Machine -> Source -> FrameProgram -> Text
+frames unit machine source program = table columns rows
   where
     rows = numbered program
     all' = map (frame . planned) rows
@@ -52,7 +53,7 @@ frames machine source program = table columns rows
         Column ToLeft "for" (roleWord . role . planned)
       ]
         <> map (via (frame . planned)) (motionColumns machine all')
-        <> [Column ToRight "speed" (speedWord . frame . planned), Column ToRight "mm/min" feedOf]
+        <> [Column ToRight "speed" (speedWord . frame . planned), Column ToRight feedTitle feedOf]
         <> map (via (frame . planned)) (brakeColumn all')
         <> [ Column ToRight "to x" (coordinate . Vec.x . endOf),
              Column ToRight "to y" (coordinate . Vec.y . endOf)
@@ -66,13 +67,14 @@ frames machine source program = table columns rows
     feedOf n =
       maybe
         ""
-        feedWord
+        (feedWord unit)
         ( FeedCode.feedOf
             machine
             (frame (planned n))
             (FeedCode.frameLength machine (frame (planned n)))
         )
-    coordinate = Decimal.fixed 3
+    coordinate = Decimal.fixedIn unit 3 . Mm
+    feedTitle = Decimal.unitText unit <> "/min"
 
 -- | The frames of a program as JSON, one object on each line. Every object has all fields, except
 -- that only arcs have @centre@, and only frames of machines with rotary axes have @turn@; a feed
@@ -137,7 +139,10 @@ decoded machine fs = table columns (zip [1 :: Int ..] fs)
                ToRight
                "mm/min"
                ( \(_, f) ->
-                   maybe "" feedWord (FeedCode.feedOf machine f (FeedCode.frameLength machine f))
+                   maybe
+                     ""
+                     (feedWord Millimetres)
+                     (FeedCode.feedOf machine f (FeedCode.frameLength machine f))
                )
            ]
         <> map (via snd) (brakeColumn fs <> commandColumns fs)
@@ -243,5 +248,5 @@ roleWord r = case r of
 speedWord :: Frame -> Text
 speedWord f = let FeedCode s = feedCode f in Decimal.whole s
 
-feedWord :: Feed -> Text
-feedWord (Feed f) = Decimal.short 2 f
+feedWord :: LengthUnit -> Feed -> Text
+feedWord unit (Feed f) = Decimal.shortIn unit 2 (Mm f)

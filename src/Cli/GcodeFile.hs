@@ -26,6 +26,7 @@ import Gcode.ToFrames (GcodeReading (..), ReadFrame (..))
 import Gcode.ToFrames qualified as ToFrames
 import Machine.Machine (Machine, ProgramForm)
 import Report.Report (Label (..), Report (others, place), ReportPlace (..))
+import Toolpath.Toolpath qualified as Toolpath
 import Verify.FromGcode qualified as FromGcode
 import Verify.Proof (Proof)
 import Verify.Proof qualified as Proof
@@ -110,9 +111,13 @@ reports ::
   ProgramForm -> Compiled -> [GcodeFile] -> Source -> GcodeReading -> Proof -> (Source, [Report])
 reports form compiled gcode source reading proof =
   ( foldl (\s f -> Region.addFile (fileName f) (fileText f) s) source gcode,
-    zipWith withLine frames (Compile.gcodeReports (Compile.machine compiled) form lineRegion proof)
+    zipWith
+      withLine
+      frames
+      (Compile.gcodeReports unit (Compile.machine compiled) form lineRegion proof)
   )
   where
+    unit = Toolpath.unit (Compile.toolpath compiled)
     bases = scanl (\at f -> at + Text.length (fileText f) + 1) (Region.nextOffset source) gcode
     lineRegion n =
       let (index, file, before) = fileOfLine gcode n

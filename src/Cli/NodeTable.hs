@@ -13,7 +13,7 @@ where
 import Base.Decimal qualified as Decimal
 import Base.LazyList qualified as LazyList
 import Base.Name (Name (..))
-import Base.Quantity (Mm (..), Rad (..), Seconds (..), minus, times, total)
+import Base.Quantity (LengthUnit (..), Mm (..), Rad (..), Seconds (..), minus, times, total)
 import Base.Region (Located (..))
 import Cli.CurveTable qualified as CurveTable
 import Cli.RestMaterialTable qualified as RestMaterialTable
@@ -30,6 +30,7 @@ import Frame.MoveTime (moveLength, moveTime, pathTime)
 import Gcode.Writer qualified as Writer
 import Geometry.Segment (Segment (..))
 import Geometry.Segment qualified as Segment
+import Geometry.Vec (Point)
 import Geometry.Vec qualified as Vec
 import Machine.Machine (Machine)
 import Part.Part (Drilling, Milling, Part)
@@ -50,20 +51,22 @@ nodes punched Analysis {part, path} =
     "\n"
     ( [heading part]
         <> CurveTable.fittings part
-        <> [contourTable machine job pass cut | (job, pass, cut) <- cutsOf path]
-        <> [pocketText machine job pass cleared | (job, pass, cleared) <- clearingsOf path]
-        <> holeTable [drilling | Holing (Located _ drilling) _ <- Toolpath.blocks path]
+        <> [contourTable unit machine job pass cut | (job, pass, cut) <- cutsOf path]
+        <> [pocketText unit machine job pass cleared | (job, pass, cleared) <- clearingsOf path]
+        <> holeTable unit [drilling | Holing (Located _ drilling) _ <- Toolpath.blocks path]
         <> RestMaterialTable.tables path
-        <> [summary punched path]
+        <> [summary unit punched path]
     )
   where
     machine = fst <$> punched
+    unit = Part.unit part
 
 heading :: Part -> Text
 heading part =
   "Part "
     <> maybe "" (\(Name n) -> n) (Part.name part)
     <> maybe "" (": " <>) (Part.title part)
+    <> (case Part.unit part of Millimetres -> ""; Inches -> " (in)")
     <> "\n"
 
 -- | The passes along contours: the milling statement, the pass, its moves.
@@ -81,11 +84,11 @@ clearingsOf path =
 
 -- | The table of one pass along a contour, one row for each section, beginning where the cutter
 -- enters. The length and the time of the whole pass follow.
-contourTable :: Maybe Machine -> Located Milling -> Pass -> [Move] -> Text
-contourTable machine job pass cut =
+contourTable :: LengthUnit -> Maybe Machine -> Located Milling -> Pass -> [Move] -> Text
+contourTable unit machine job pass cut =
   "Contour "
     <> nameOf job
-    <> passWord pass
+    <> passWord unit pass
     <> ": nodes of the "
     <> sideWord job
     <> ", numbered from the entry\n\n"
@@ -102,30 +105,30 @@ contourTable machine job pass cut =
           "length",
           "time s"
         ] :
-        sectionRows machine (Part.ends (Part.contour (value job))) (Toolpath.curveRuns cut)
+        sectionRows unit machine (Part.ends (Part.contour (value job))) (Toolpath.curveRuns cut)
       )
-    <> lengthAndTime machine cut
+    <> lengthAndTime unit machine cut
 
 -- | The count of moves, the length and the time of one pass in a pocket.
-pocketText :: Maybe Machine -> Located Milling -> Pass -> [Move] -> Text
-pocketText machine wall pass cleared =
+pocketText :: LengthUnit -> Maybe Machine -> Located Milling -> Pass -> [Move] -> Text
+pocketText unit machine wall pass cleared =
   "Pocket "
     <> nameOf wall
-    <> passWord pass
+    <> passWord unit pass
     <> ": cleared in "
     <> Decimal.whole (length cleared)
     <> " moves\n"
-    <> lengthAndTime machine cleared
+    <> lengthAndTime unit machine cleared
 
 nameOf :: Located Milling -> Text
 nameOf job = let Name n = value (Part.contourName (Part.contour (value job))) in n
 
 -- | The words for the height of a pass and for the allowance that it leaves. Each is left out if
 -- it is 0.
-passWord :: Pass -> Text
-passWord Pass {left, atHeight} =
-  (if atHeight == Mm 0 then "" else " at z = " <> fixed3 atHeight)
-    <> (if left == Mm 0 then "" else ", leaving " <> fixed3 left)
+passWord :: LengthUnit -> Pass -> Text
+passWord unit Pass {left, atHeight} =
+  (if atHeight == Mm 0 then "" else " at z = " <> fixed3 unit atHeight)
+    <> (if left == Mm 0 then "" else ", leaving " <> fixed3 unit left)
 
 sideWord :: Located Milling -> Text
 sideWord job = case value (Part.side (value job)) of
@@ -135,30 +138,32 @@ sideWord job = case value (Part.side (value job)) of
   Part.LeftSide -> "equidistant on the left"
   Part.RightSide -> "equidistant on the right"
 
-lengthAndTime :: Maybe Machine -> [Move] -> Text
-lengthAndTime machine moves =
+lengthAndTime :: LengthUnit -> Maybe Machine -> [Move] -> Text
+lengthAndTime unit machine moves =
   "\nlength "
-    <> fixed3 (total (map moveLength moves))
-    <> " mm, time "
+    <> fixed3 unit (total (map moveLength moves))
+    <> " "
+    <> Decimal.unitText unit
+    <> ", time "
     <> seconds (total (map (moveTime machine) moves))
     <> " s\n"
 
 -- | One row for each section, with the coordinates of its first node. An open contour also has a
 -- row for its last node; on a closed contour the last section ends at node 0.
-sectionRows :: Maybe Machine -> Part.Ends -> [NonEmpty Move] -> [[Text]]
-sectionRows machine ends sections =
-  zipWith (sectionRow machine (length sections) ends) [0 ..] sections <> endRow ends sections
+sectionRows :: LengthUnit -> Maybe Machine -> Part.Ends -> [NonEmpty Move] -> [[Text]]
+sectionRows unit machine ends sections =
+  zipWith (sectionRow unit machine (length sections) ends) [0 ..] sections
+    <> endRow unit ends sections
 
-sectionRow :: Maybe Machine -> Int -> Part.Ends -> Int -> NonEmpty Move -> [Text]
-sectionRow machine count ends index section =
+sectionRow :: LengthUnit -> Maybe Machine -> Int -> Part.Ends -> Int -> NonEmpty Move -> [Text]
+sectionRow unit machine count ends index section =
   [ Decimal.whole index <> "–" <> Decimal.whole next,
     kindWord section,
-    Decimal.whole index,
-    fixed3 (Mm (Vec.x begin)),
-    fixed3 (Mm (Vec.y begin))
+    Decimal.whole index
   ]
-    <> centreAndRadius section
-    <> [ fixed3 (total (map (Segment.length . segment) moves)),
+    <> coordinates unit begin
+    <> centreAndRadius unit section
+    <> [ fixed3 unit (total (map (Segment.length . segment) moves)),
          seconds (total (map (moveTime machine) moves))
        ]
   where
@@ -168,12 +173,12 @@ sectionRow machine count ends index section =
     begin = Segment.start (segment (NonEmpty.head section))
     moves = NonEmpty.toList section
 
-endRow :: Part.Ends -> [NonEmpty Move] -> [[Text]]
-endRow ends sections = case (ends, reverse sections) of
+endRow :: LengthUnit -> Part.Ends -> [NonEmpty Move] -> [[Text]]
+endRow unit ends sections = case (ends, reverse sections) of
   (Part.Open, final : _) ->
     let end = Segment.end (segment (NonEmpty.last final))
         index = Decimal.whole (length sections)
-     in [["", "end", index, fixed3 (Mm (Vec.x end)), fixed3 (Mm (Vec.y end)), "", "", "", "", ""]]
+     in [["", "end", index] <> coordinates unit end <> ["", "", "", "", ""]]
   _ -> []
 
 kindWord :: NonEmpty Move -> Text
@@ -183,26 +188,26 @@ kindWord section
     Straight _ _ -> "line"
     Arc {sweep = Rad a} -> if a > 0 then "arc ccw" else "arc cw"
 
-centreAndRadius :: NonEmpty Move -> [Text]
-centreAndRadius section = case segment (NonEmpty.head section) of
+centreAndRadius :: LengthUnit -> NonEmpty Move -> [Text]
+centreAndRadius unit section = case segment (NonEmpty.head section) of
   Arc {start, centre}
     | not (Toolpath.isCurve section) ->
-      [fixed3 (Mm (Vec.x centre)), fixed3 (Mm (Vec.y centre)), fixed3 (Segment.radius centre start)]
+      coordinates unit centre <> [fixed3 unit (Segment.radius centre start)]
   _ -> ["", "", ""]
 
 -- Holes and sums ----------------------------------------------------------------------------------
 
 -- | The table of all holes; the empty list if there are no holes.
-holeTable :: [Drilling] -> [Text]
-holeTable drillings =
+holeTable :: LengthUnit -> [Drilling] -> [Text]
+holeTable unit drillings =
   [ "Holes\n\n"
       <> Table.columns
         [ToRight, ToRight, ToRight, ToRight]
         ( ["x", "y", "diameter", "depth"] :
-            [ [ fixed3 (Mm (Vec.x p)),
-                fixed3 (Mm (Vec.y p)),
-                fixed3 (times 2 (Part.drillRadius d)),
-                fixed3 (times (-1) (Part.bottom d))
+            [ [ fixed3 unit (Mm (Vec.x p)),
+                fixed3 unit (Mm (Vec.y p)),
+                fixed3 unit (times 2 (Part.drillRadius d)),
+                fixed3 unit (times (-1) (Part.bottom d))
               ]
               | d <- drillings,
                 Located _ p <- NonEmpty.toList (Part.holes d)
@@ -214,12 +219,12 @@ holeTable drillings =
 -- | The length of all linking moves, the length and the time of the whole toolpath, the time that
 -- the controller takes, the count of frames, and the size of the tape. Moves for the drilling of
 -- holes count as linking moves.
-summary :: Maybe (Machine, Punched) -> Toolpath -> Text
-summary punched path =
+summary :: LengthUnit -> Maybe (Machine, Punched) -> Toolpath -> Text
+summary unit punched path =
   Table.columns
     [ToLeft, ToRight, ToLeft]
-    ( [ ["linking moves", fixed3 (minus (lengthOf everything) (lengthOf cutting)), "mm"],
-        ["total length of the path", fixed3 (lengthOf everything), "mm"],
+    ( [ "linking moves" : measured (minus (lengthOf everything) (lengthOf cutting)),
+        "total length of the path" : measured (lengthOf everything),
         ["total time", seconds (pathTime machine path), "s"]
       ]
         <> maybe [] (uncurry controllerRow) punched
@@ -227,6 +232,7 @@ summary punched path =
     )
   where
     machine = fst <$> punched
+    measured x = [fixed3 unit x, Decimal.unitText unit]
     everything = concatMap Toolpath.moves (Toolpath.blocks path)
     cutting = concat [moves | (_, _, moves) <- cutsOf path <> clearingsOf path]
     lengthOf = total . map moveLength
@@ -267,8 +273,13 @@ tapeRows machine Punched {program, tape, files} =
 
 -- Moves -------------------------------------------------------------------------------------------
 
-fixed3 :: Mm -> Text
-fixed3 (Mm x) = Decimal.fixed 3 x
+-- | The two coordinates of a point, without their unit.
+coordinates :: LengthUnit -> Point -> [Text]
+coordinates unit p = [fixed3 unit (Mm (Vec.x p)), fixed3 unit (Mm (Vec.y p))]
+
+-- | A length without its unit: three decimals in mm, four in inches.
+fixed3 :: LengthUnit -> Mm -> Text
+fixed3 unit x = Decimal.fixedIn unit 3 x
 
 seconds :: Seconds -> Text
 seconds (Seconds s) = Decimal.fixed 1 s

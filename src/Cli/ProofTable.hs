@@ -7,7 +7,7 @@ where
 import Base.Decimal qualified as Decimal
 import Base.Name (Name (..))
 import Base.PulseVector (Pulses3 (..))
-import Base.Quantity (Mm (..), Pulses (..))
+import Base.Quantity (LengthUnit, Mm (..), Pulses (..))
 import Base.Region (Located (..))
 import Cli.Table (Align (..))
 import Cli.Table qualified as Table
@@ -19,26 +19,26 @@ import Verify.Proof (ContourProof (..), Proof, Witness (..))
 import Verify.Proof qualified as Proof
 
 -- | The proof as text. A table has two rows for each contour: one for the largest gouge, one for
--- the largest excess. A row has this value in mm, the allowed value, and the number of the frame
--- where the value occurs. Facts about the whole tape and the verdict follow.
-proof :: Machine -> Proof -> Text
-proof machine p =
+-- the largest excess. A row has this value in the given unit, the allowed value, and the number of
+-- the frame where the value occurs. Facts about the whole tape and the verdict follow.
+proof :: LengthUnit -> Machine -> Proof -> Text
+proof unit machine p =
   Table.columns
     [ToLeft, ToRight, ToLeft, ToRight, ToRight]
     (header : concatMap contourRows (Proof.contourProofs p))
     <> "\n"
     <> Table.columns [ToLeft, ToLeft] closing
   where
-    header = ["contour", "", "mm", "allowed", "frame"]
+    header = ["contour", "", Decimal.unitText unit, "allowed", "frame"]
     contourRows c =
       let Name n = value (contour c)
        in [ [n, "gouge"] <> witness (allowedGouge c) (gouge c),
             ["", "excess"] <> witness (allowedExcess c) (excess c)
           ]
     witness allowed w = case w of
-      Nothing -> ["0.0000", fixed4 allowed, ""]
+      Nothing -> [fixed4 (Mm 0), fixed4 allowed, ""]
       Just x -> [fixed4 (max (Mm 0) (amount x)), fixed4 allowed, Decimal.whole (Proof.frame x)]
-    fixed4 (Mm x) = Decimal.fixed 4 x
+    fixed4 = Decimal.fixedIn unit 4
     inOrder (Pulses3 x y z) = [x, y, z]
     axes words' =
       Text.intercalate ", " (zipWith (\axis w -> axis <> " " <> w) ["x", "y", "z"] words')

@@ -6,6 +6,7 @@ where
 
 import Base.Decimal qualified as Decimal
 import Base.Name (Name (..))
+import Base.Quantity (LengthUnit, Mm (..))
 import Base.Region (Located (..))
 import Cli.Table (Align (..))
 import Cli.Table qualified as Table
@@ -22,9 +23,10 @@ import Toolpath.Error qualified as Error
 import Toolpath.RestMaterial (Remaining (Remaining, tool, walls))
 import Toolpath.RestMaterial qualified as RestMaterial
 import Toolpath.Toolpath (Toolpath)
+import Toolpath.Toolpath qualified as Toolpath
 
 -- | One table for each statement that leaves rest material. Each row describes one region of rest
--- material. It has a position in mm, the area in mm², the size of the largest cutter that would
+-- material. It has a position, the area, the size of the largest cutter that would
 -- reach the region, and the reason why the cutter of the program does not.
 --
 -- If the material remains in an inner corner, the position is the vertex of the corner. Otherwise
@@ -32,36 +34,46 @@ import Toolpath.Toolpath (Toolpath)
 -- the region is not known, or if another row has the area of this region. The size is empty for an
 -- inner corner, because no round cutter reaches the vertex.
 tables :: Toolpath -> [Text]
-tables path = map table (RestMaterial.ofPath path)
+tables path = map (table (Toolpath.unit path)) (RestMaterial.ofPath path)
 
-table :: Remaining -> Text
-table Remaining {tool, walls, RestMaterial.positions = regions} =
+table :: LengthUnit -> Remaining -> Text
+table unit Remaining {tool, walls, RestMaterial.positions = regions} =
   "Left along "
     <> Text.intercalate
       ", "
       [n | Part.Contour {Part.contourName = Located _ (Name n)} <- NonEmpty.toList walls]
     <> " by "
-    <> Error.cutter tool
+    <> Error.cutter unit tool
     <> "\n\n"
     <> Table.columns
       [ToRight, ToRight, ToRight, ToRight, ToLeft]
-      (["x", "y", "area mm²", "largest", "place"] : map (row tool) (NonEmpty.toList regions))
+      ( [ "x",
+          "y",
+          "area " <> Decimal.unitText unit
+            <> "²",
+          "largest",
+          "place"
+        ] :
+        map (row unit tool) (NonEmpty.toList regions)
+      )
 
 -- | The row of one region. @tool@ is the cutter that leaves the region. @stay@ says where on the
 -- contour the material stays, such as in an inner corner. @rest@ contains the boundary of the
 -- region.
-row :: Tool -> (RestPosition, UnreachedPart) -> [Text]
-row tool (stay, rest) = case stay of
+row :: LengthUnit -> Tool -> (RestPosition, UnreachedPart) -> [Text]
+row unit tool (stay, rest) = case stay of
   InCorner _ _ p -> at p "" "inner corner"
   InConcaveArc _ radius largest ->
-    at (cutterCentre rest) (fitting largest) ("concave radius of " <> Decimal.mm radius)
+    at (cutterCentre rest) (fitting largest) ("concave radius of " <> Decimal.inUnit unit radius)
   Between _ _ p largest -> at p (fitting largest) "narrow place, with the cutter's centre here"
   where
     at p largest why = case restMaterial rest of
       Within outline ->
-        from p (Decimal.fixed 3 (abs (Polyarc.signedArea (Polyarc Closed outline)))) largest why
-      SameAs q -> from p "" largest (why <> ", part of what stays at " <> Vec.toText 3 q)
+        from p (areaText (Polyarc.signedArea (Polyarc Closed outline))) largest why
+      SameAs q -> from p "" largest (why <> ", part of what stays at " <> Vec.toText unit 3 q)
       Unbounded -> from p "" largest why
     from p area largest why =
-      [Decimal.fixed 3 (Vec.x p), Decimal.fixed 3 (Vec.y p), area, largest, why]
-    fitting = maybe "none" (Error.fittingSize tool)
+      [coordinate (Vec.x p), coordinate (Vec.y p), area, largest, why]
+    areaText = Decimal.areaIn unit 3 . abs
+    coordinate = Decimal.fixedIn unit 3 . Mm
+    fitting = maybe "none" (Error.fittingSize unit tool)

@@ -7,6 +7,7 @@ module Cli.Subcommand
   )
 where
 
+import Base.Quantity (LengthUnit)
 import Base.Region qualified as Region
 import Base.Result (Result (..))
 import Base.Result qualified as Result
@@ -79,6 +80,7 @@ import Sheet.Unsupported qualified as Unsupported
 import Tape.Damage (Damage)
 import Tape.Punch qualified as Tape
 import Tape.Tape (Tape (..))
+import Toolpath.Toolpath qualified as Toolpath
 import Verify.FromGcode qualified as FromGcode
 import Verify.PulseProof (PulseProof)
 
@@ -250,7 +252,7 @@ verifyGcode reporter given form gcode compiled = case GcodeFile.read form compil
     let proof = Compile.proveGcode form part compiled reading
         (texts, wrong) = GcodeFile.reports form compiled gcode (source given) reading proof
     Progress.during ("proving " <> name given) (evaluated (Result.failing wrong proof))
-    exit <- printResult reporter (ProofTable.proof (Compile.machine compiled) proof)
+    exit <- printResult reporter (ProofTable.proof (unitOf compiled) (Compile.machine compiled) proof)
     _ <- Output.showReports reporter (name given) texts wrong
     pure (if null wrong then exit else Disproven)
   where
@@ -274,7 +276,8 @@ verifyTape reporter given tapeFile compiled pulses =
     Right read' -> do
       let result = Compile.proveTape part compiled read'
       Progress.during ("proving " <> tapeName) (evaluated result)
-      exit <- maybe (pure Done) (printResult reporter . ProofTable.proof machine) (output result)
+      let table = ProofTable.proof (unitOf compiled) machine
+      exit <- maybe (pure Done) (printResult reporter . table) (output result)
       exitOfPulses <- maybe (pure Done) printPulses pulses
       let (texts, wrong) =
             maybe
@@ -299,10 +302,16 @@ verifyTape reporter given tapeFile compiled pulses =
 frames :: Reporter -> FilePath -> Maybe Text -> Bool -> IO Exit
 frames reporter file target asJson = withInput reporter file (maybeToList target) $ \given ->
   settled reporter given (onFirstMachine target given) $
-    \Compiled {Compile.machine, Compile.punched} ->
-      printResult reporter (table machine (source given) (program punched))
+    \compiled@Compiled {Compile.machine, Compile.punched} ->
+      printResult
+        reporter
+        (table (unitOf compiled) machine (source given) (program punched))
   where
-    table = if asJson then FrameTable.framesJson else FrameTable.frames
+    table unit = if asJson then FrameTable.framesJson else FrameTable.frames unit
+
+-- | The unit in which the results of a compiled program are printed.
+unitOf :: Compiled -> LengthUnit
+unitOf = Toolpath.unit . Compile.toolpath
 
 -- | Prints the tables of nodes, lengths and times of a program. If the program or the command line
 -- names a machine, the tables use its feeds and have the length of its tape.

@@ -6,8 +6,7 @@ module Draw.Plot
   )
 where
 
-import Base.Decimal qualified as Decimal
-import Base.Quantity (Mm (..), minus, over, times, total)
+import Base.Quantity (LengthUnit, Mm (..), millimetresIn, minus, over, times, total)
 import Data.Bifunctor (first)
 import Data.List (sortOn)
 import Data.List.NonEmpty qualified as NonEmpty
@@ -35,6 +34,7 @@ import Geometry.Segment qualified as Segment
 import Geometry.Vec qualified as Vec
 import Geometry.WindingNumber qualified as WindingNumber
 import Part.Part (Part)
+import Part.Part qualified as Part
 import Toolpath.Toolpath (Toolpath)
 
 -- | Draws a part and its toolpath as an SVG document.
@@ -45,7 +45,7 @@ plot part path =
     (TitleBlock.name part)
     ( [ Svg.layer "page" [Svg.rectangle (Pen "none" 0 []) "white" Page.wholePage],
         Svg.layer "material" (material (shapes scene)),
-        Svg.layer "axes" (axes (page scene))
+        Svg.layer "axes" (axes (Part.unit part) (page scene))
       ]
         <> [ Svg.layer "rests" (map (Svg.area LineStyle.restColour) (restMaterial scene))
              | not (null (restMaterial scene))
@@ -117,9 +117,9 @@ contourLine Shape {ends, outline} = case ends of
 
 -- | Thin axes through the origin of the part. If the origin is not on the field, two short axes
 -- cross near the lower left corner. They cross at a point with round coordinates, which are written
--- beside it.
-axes :: Page -> [Svg]
-axes page
+-- beside it, in the given unit.
+axes :: LengthUnit -> Page -> [Svg]
+axes unit page
   | Page.holds Page.field origin =
     [ Svg.stroke
         LineStyle.axisPen
@@ -134,7 +134,7 @@ axes page
         LineStyle.small
         Start
         (Vec.point (mx + 1) (my + 3.2))
-        ("(" <> Decimal.short 4 cx <> ", " <> Decimal.short 4 cy <> ")")
+        (Vec.toText unit 4 crossing)
     ]
       <> axisHeads mx my (mx + 12) (my - 12)
   where
@@ -142,10 +142,10 @@ axes page
     (ox, oy) = (Vec.x origin, Vec.y origin)
     (right, top) = (rightmost Page.field - 3, upper Page.field + 3)
     corner = Page.unplace page (Vec.point (leftmost Page.field + 3) (lower Page.field - 5))
-    grid = gridOf page
-    (cx, cy) = (up (Vec.x corner), up (Vec.y corner))
+    grid = gridOf unit page
+    crossing = Vec.point (up (Vec.x corner)) (up (Vec.y corner))
     up c = grid * fromIntegral (ceiling (c / grid) :: Integer)
-    mark = Page.place page (Vec.point cx cy)
+    mark = Page.place page crossing
     (mx, my) = (Vec.x mark, Vec.y mark)
 
 -- | Symbol of the part's origin; none if the origin is not on the field.
@@ -164,9 +164,11 @@ axisHeads px py right top =
   ]
 
 -- | Step of the round coordinates in 'axes', in mm of the part: these coordinates are multiples of
--- the step. On paper the step is 3.2 to 8 mm long.
-gridOf :: Page -> Double
-gridOf page = Page.round125 (8 / Page.onPaper page (Mm 1))
+-- the step, which is round in the unit. On paper the step is 3.2 to 8 mm long.
+gridOf :: LengthUnit -> Page -> Double
+gridOf unit page = one * Page.round125 (8 / Page.onPaper page (Mm one))
+  where
+    one = millimetresIn unit
 
 -- Toolpath ----------------------------------------------------------------------------------------
 

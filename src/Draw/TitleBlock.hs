@@ -8,7 +8,7 @@ where
 
 import Base.Decimal qualified as Decimal
 import Base.Name qualified as Name
-import Base.Quantity (Mm (..), times)
+import Base.Quantity (LengthUnit, Mm (..), millimetresIn, times)
 import Data.Maybe (catMaybes)
 import Data.Text (Text)
 import Data.Text qualified as Text
@@ -30,7 +30,8 @@ name part = Text.intercalate ". " (catMaybes [Name.text <$> Part.name part, Part
 
 -- | Borders of the page's field and of the strip, and the content of the strip.
 block :: Part -> Scene -> [Svg]
-block part scene = borders <> legend scene <> scaleBar (page scene) <> title part scene
+block part scene =
+  borders <> legend scene <> scaleBar (Part.unit part) (page scene) <> title part scene
 
 -- | Left edges of the scale bar's field and of the title block, in mm from the left edge of the
 -- page.
@@ -100,15 +101,16 @@ legendEntries Scene {page, shapes, cuts, restMaterial, feeds, rapids} =
     right = Vec.shift (Vec.vec 8 0)
     middle = Vec.shift (Vec.vec 4 0)
 
--- | Scale bar: a round length of the part, 12 to 30 mm on paper, in four sections that are
--- alternately black and white.
-scaleBar :: Page -> [Svg]
-scaleBar page =
+-- | Scale bar: a round length of the part in its unit, 12 to 30 mm on paper, in four sections that
+-- are alternately black and white.
+scaleBar :: LengthUnit -> Page -> [Svg]
+scaleBar unit page =
   zipWith step [0 ..] [LineStyle.black, "white", LineStyle.black, "white"]
-    <> zipWith mark [0, 0.5, 1] ["", "", " mm"]
+    <> zipWith mark [0, 0.5, 1] ["", "", " " <> Decimal.unitText unit]
   where
-    total = Page.round125 (30 / Page.onPaper page (Mm 1))
-    width = Page.onPaper page (Mm total)
+    total = Page.round125 (30 / Page.onPaper page one)
+    one = Mm (millimetresIn unit)
+    width = Page.onPaper page (times total one)
     left = (barEdge + titleEdge - width) / 2
     y = upper Page.strip + 5
     step from colour =
@@ -116,12 +118,12 @@ scaleBar page =
         LineStyle.axisPen {colour = LineStyle.black}
         colour
         (Area (left + width * from / 4) y (left + width * (from + 1) / 4) (y + 1.6))
-    mark fraction unit =
+    mark fraction word =
       Svg.text
         LineStyle.small
         Middle
         (Vec.point (left + width * fraction) (y + 5))
-        (Decimal.short 4 (total * fraction) <> unit)
+        (Decimal.short 4 (total * fraction) <> word)
 
 -- | Title block: the part's name and title, the scale, the diameters of cutters, the nose radii of
 -- turning tools.
@@ -138,15 +140,16 @@ title part Scene {page, tools} =
     fitted plain (Vec.point (left + 30) (y + 13.2)) cutters
   ]
   where
+    unit = Part.unit part
     left = titleEdge + 3
     y = upper Page.strip
     plain = TextStyle {size = 3, ink = LineStyle.black, bold = False}
     cutters =
       Text.intercalate "; " (sized "cutter Ø " (times 2) Milled <> sized "nose R " id Turned)
     sized word measure work =
-      case [Decimal.short 4 d | (w, r) <- tools, w == work, Mm d <- [measure r]] of
+      case [Decimal.shortIn unit 4 (measure r) | (w, r) <- tools, w == work] of
         [] -> []
-        sizes -> [word <> Text.intercalate ", " sizes <> " mm"]
+        sizes -> [word <> Text.intercalate ", " sizes <> " " <> Decimal.unitText unit]
 
 -- | Text that begins at point @p@ and ends before the right edge of the strip. A text that is too
 -- long gets smaller letters, down to 2 mm. If that is not enough, "…" replaces its end.

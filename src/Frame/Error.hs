@@ -14,7 +14,7 @@ module Frame.Error
 where
 
 import Base.Decimal qualified as Decimal
-import Base.Quantity (Feed (..), Mm (..), plus, times)
+import Base.Quantity (Feed (..), LengthUnit (..), Mm (..), plus, times)
 import Base.Region (Region)
 import Data.Maybe (isJust)
 import Data.Text (Text)
@@ -100,20 +100,20 @@ data CommandKind
   deriving stock (Eq, Ord, Show)
 
 -- | Report of an error; @machine@ is the machine for which the program is compiled.
-toReport :: Machine -> Error -> Report
-toReport machine err = case err of
+toReport :: LengthUnit -> Machine -> Error -> Report
+toReport unit machine err = case err of
   FeedOutOfRange region asked lowest highest ->
     ( report
         Report.Error
         "E0501"
         (InSource region)
-        (machineName machine <> " has no feed of " <> feed asked)
+        (machineName machine <> " has no feed of " <> feed unit asked)
     )
-      { message = ["Its feeds go from " <> feed lowest <> " to " <> feed highest <> "."],
+      { message = ["Its feeds go from " <> feed unit lowest <> " to " <> feed unit highest <> "."],
         fixes =
           [ if asked > highest
-              then feedFix "Write its largest feed" region (roundedTo floor highest)
-              else feedFix "Write its lowest feed" region (roundedTo ceiling lowest)
+              then feedFix "Write its largest feed" region (roundedTo unit floor highest)
+              else feedFix "Write its lowest feed" region (roundedTo unit ceiling lowest)
           ],
         hints = perTurn asked
       }
@@ -122,7 +122,7 @@ toReport machine err = case err of
         Report.Error
         "E0501"
         (InSource region)
-        (machineName machine <> " cannot run a feed of " <> feed asked <> " in this move")
+        (machineName machine <> " cannot run a feed of " <> feed unit asked <> " in this move")
     )
       { message =
           [ "The leading axis of this move would need "
@@ -133,9 +133,9 @@ toReport machine err = case err of
               <> Decimal.short 2 high
               <> ".",
             "In a move along one axis these are feeds from "
-              <> feed lowFeed
+              <> feed unit lowFeed
               <> " to "
-              <> feed highFeed
+              <> feed unit highFeed
               <> "."
           ],
         -- The frequency is in proportion to the feed.
@@ -148,15 +148,16 @@ toReport machine err = case err of
       }
     where
       limited :: (Double -> Int) -> Double -> Text
-      limited towards limit = let Feed f = asked in roundedTo towards (Feed (f * limit / needed))
+      limited towards limit =
+        let Feed f = asked in roundedTo unit towards (Feed (f * limit / needed))
   OutOfReach region p limit ->
     ( report
         Report.Error
         "E0502"
         (InSource region)
-        ("the cutter would go to " <> Vec.toText 4 p <> ", further than any machine reaches")
+        ("the cutter would go to " <> Vec.toText unit 4 p <> ", further than any machine reaches")
     )
-      { message = ["Coordinates may be up to " <> Decimal.mm limit <> "."],
+      { message = ["Coordinates may be up to " <> Decimal.inUnit unit limit <> "."],
         hints = ["Check the units and the decimal points of the numbers."]
       }
   ToleranceTooLarge region tolerance radius written ->
@@ -165,9 +166,9 @@ toReport machine err = case err of
         "E0504"
         (InSource region)
         ( "a tolerance of "
-            <> Decimal.mm tolerance
+            <> Decimal.inUnit unit tolerance
             <> " is too large for a cutter of radius "
-            <> Decimal.mm radius
+            <> Decimal.inUnit unit radius
         )
     )
       { message =
@@ -181,7 +182,7 @@ toReport machine err = case err of
           [ Fix.proposed
               (Fix.exchange ("Write a smaller tolerance: " <> text <> ".") written text)
             | usual < plus radius (times (-1) (Machine.planeResolution machine)),
-              let text = Decimal.mm usual
+              let text = Decimal.inUnit unit usual
           ],
         hints = ["Take a larger cutter."]
       }
@@ -269,10 +270,10 @@ toReport machine err = case err of
             <> " cannot hold the position "
             <> axisName axis
             <> " = "
-            <> Decimal.mm position
+            <> Decimal.inUnit unit position
         )
     )
-      { message = ["It holds positions up to " <> Decimal.mm limit <> "."],
+      { message = ["It holds positions up to " <> Decimal.inUnit unit limit <> "."],
         hints =
           [ "Check the units and the decimal points of the numbers, or put the zero nearer to \
             \the part."
@@ -296,7 +297,7 @@ toReport machine err = case err of
         ( "the tape of "
             <> machineName machine
             <> " cannot hold a cutter diameter of "
-            <> Decimal.mm diameter
+            <> Decimal.inUnit unit diameter
         )
     )
       { message =
@@ -320,8 +321,8 @@ toReport machine err = case err of
       }
 
 -- | Report of a warning about frames. @machine@ is the machine for which the program is compiled.
-warningReport :: Machine -> Warning -> Report
-warningReport machine warning = case warning of
+warningReport :: LengthUnit -> Machine -> Warning -> Report
+warningReport unit machine warning = case warning of
   FeedDiffers region asked lowest highest ->
     ( report
         Report.Warning
@@ -329,16 +330,16 @@ warningReport machine warning = case warning of
         (InSource region)
         ( machineName machine
             <> " runs this feed at "
-            <> ( if feed lowest == feed highest
-                   then feed lowest
-                   else feed lowest <> " to " <> feed highest
+            <> ( if feed unit lowest == feed unit highest
+                   then feed unit lowest
+                   else feed unit lowest <> " to " <> feed unit highest
                )
         )
     )
-      { message = ["The program asks for " <> feed asked <> "; " <> reason <> "."],
+      { message = ["The program asks for " <> feed unit asked <> "; " <> reason <> "."],
         fixes =
-          [ feedFix "Write the feed that the machine runs" region (exactFeed lowest)
-            | feed lowest == feed highest,
+          [ feedFix "Write the feed that the machine runs" region (exactFeed unit lowest)
+            | feed unit lowest == feed unit highest,
               Machine.feedMeasure (Machine.feeds machine) == Machine.AlongPath
           ]
       }
@@ -347,18 +348,18 @@ warningReport machine warning = case warning of
         Report.Warning
         "W0502"
         (InSource region)
-        ("the cutter cannot start at " <> Vec.toText 4 asked <> ": it is between two pulses")
+        ("the cutter cannot start at " <> Vec.toText unit 4 asked <> ": it is between two pulses")
     )
       { message =
           [ "The tape is computed for a start at "
-              <> Vec.toText 4 given
+              <> Vec.toText unit 4 given
               <> " (a pulse is "
               <> Decimal.mm (Machine.planeResolution machine)
               <> ")."
           ],
         fixes =
           [ Fix.proposed (Fix.exchange ("Write this start: " <> text <> ".") region text)
-            | let text = "from " <> startText given z
+            | let text = "from " <> startText unit given z
           ]
       }
   HeightUncertain region ->
@@ -494,16 +495,17 @@ perTurn (Feed f) =
 feedFix :: Text -> Region -> Text -> Fix
 feedFix what region text = Fix.proposed (Fix.exchange (what <> ": " <> text <> ".") region text)
 
--- | Text of a feed, rounded to 0.01 mm/min in the direction @towards@.
-roundedTo :: (Double -> Int) -> Feed -> Text
-roundedTo towards (Feed f) = Decimal.short 2 (fromIntegral n / 100) <> " mm/min"
+-- | Text of a feed, rounded to 0.01 mm/min or 0.001 in/min in the direction @towards@.
+roundedTo :: LengthUnit -> (Double -> Int) -> Feed -> Text
+roundedTo unit towards (Feed f) = Decimal.feedIn unit 2 (Feed (fromIntegral n / steps))
   where
-    nearest = round (f * 100) :: Int
-    n = if abs (f * 100 - fromIntegral nearest) < 1e-6 then nearest else towards (f * 100)
+    steps = Decimal.stepsPerMm unit / 10
+    nearest = round (f * steps) :: Int
+    n = if abs (f * steps - fromIntegral nearest) < 1e-6 then nearest else towards (f * steps)
 
 -- | Text of a feed with all its decimals.
-exactFeed :: Feed -> Text
-exactFeed (Feed f) = Decimal.exact f <> " mm/min"
+exactFeed :: LengthUnit -> Feed -> Text
+exactFeed unit f = Decimal.exactFeedIn unit f
 
 -- | Tolerance that is usual for milling.
 usual :: Mm
@@ -511,10 +513,17 @@ usual = Mm 0.02
 
 -- | Text of a start: its coordinates, and its height unless that is 0. Six decimals are finer than
 -- any pulse.
-startText :: Point -> Mm -> Text
-startText p (Mm z) =
+startText :: LengthUnit -> Point -> Mm -> Text
+startText unit p (Mm z) =
   "("
-    <> Text.intercalate ", " (map (Decimal.short 6) ([Vec.x p, Vec.y p] <> [z | z /= 0]))
+    <> Text.intercalate
+      ", "
+      ( map
+          (Decimal.shortIn unit 6 . Mm)
+          ( [Vec.x p, Vec.y p]
+              <> [z | z /= 0]
+          )
+      )
     <> ")"
 
 -- | Words for a command of a kind in a report.
@@ -546,8 +555,8 @@ machineName :: Machine -> Text
 machineName machine = let MachineName name = Machine.name machine in name
 
 -- | Feed with its unit, for a report.
-feed :: Feed -> Text
-feed (Feed f) = Decimal.short 2 f <> " mm/min"
+feed :: LengthUnit -> Feed -> Text
+feed unit f = Decimal.feedIn unit 2 f
 
 -- | The statement of the language for the command that G-code writes as M and this number (ISO
 -- 6983).

@@ -29,11 +29,13 @@ module Geometry.Vec
     interpolate,
     isNear,
     toText,
+    toExactText,
+    coordinates,
   )
 where
 
 import Base.Decimal qualified as Decimal
-import Base.Quantity (Mm (..), Rad (..))
+import Base.Quantity (LengthUnit, Mm (..), Rad (..), millimetresIn)
 import Data.Text (Text)
 import Geometry.Tolerance qualified as Tolerance
 import Prelude hiding (negate)
@@ -134,8 +136,19 @@ interpolate t a b = shift (scale t (to a b)) a
 isNear :: Point -> Point -> Bool
 isNear a b = distance a b <= Tolerance.coincident
 
--- | A point in the notation of a part program, with at most @decimals@ digits after each decimal
--- point.
-toText :: Int -> Point -> Text
-toText decimals p =
-  "(" <> Decimal.short decimals (x p) <> ", " <> Decimal.short decimals (y p) <> ")"
+-- | A point in the notation of a part program whose lengths are in a unit: with at most @decimals@
+-- digits after each decimal point in mm, and one more in inches.
+toText :: LengthUnit -> Int -> Point -> Text
+toText inUnit decimals p = "(" <> coordinate (x p) <> ", " <> coordinate (y p) <> ")"
+  where
+    coordinate = Decimal.shortIn inUnit decimals . Mm
+
+-- | A point in the notation of a part program whose lengths are in a unit, with all decimals.
+toExactText :: LengthUnit -> Point -> Text
+toExactText inUnit p = "(" <> coordinates inUnit p <> ")"
+
+-- | The coordinates of a point with all decimals, separated by a comma.
+coordinates :: LengthUnit -> Point -> Text
+coordinates inUnit p = coordinate (x p) <> ", " <> coordinate (y p)
+  where
+    coordinate c = Decimal.exact (c / millimetresIn inUnit)

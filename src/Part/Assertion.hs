@@ -30,7 +30,7 @@ check at env assertion = case assertion of
     a <- Expression.evaluate env l
     b <- Expression.evaluate env r
     v <- Builtin.binary whole op a b
-    let compared = [(region l, Expression.written d a), (region r, Expression.written d b)]
+    let compared = [(region l, text d a), (region r, text d b)]
     if Expression.isTrue v then pure () else Evaluation.mistake (DoesNotHold whole compared)
   Checked.Agrees d l r within -> do
     a <- Expression.number <$> Expression.evaluate env l
@@ -45,4 +45,5 @@ check at env assertion = case assertion of
           (DoNotAgree at left right (written d (abs (a - b))) (written d slack))
   where
     written :: Dimension -> Double -> Text
-    written d x = Expression.written d (Quantity x)
+    written d x = text d (Quantity x)
+    text = Expression.written (Expression.textUnit env)

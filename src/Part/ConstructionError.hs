@@ -13,7 +13,7 @@ module Part.ConstructionError
 where
 
 import Base.Decimal qualified as Decimal
-import Base.Quantity (Mm (..))
+import Base.Quantity (LengthUnit, Mm (..))
 import Base.Region (Region (..))
 import Data.Text (Text)
 import Data.Text qualified as Text
@@ -88,11 +88,11 @@ data TangentObstacle
   deriving stock (Eq, Show)
 
 -- | The report of a fault. @arguments@ are the regions of the arguments of the call.
-toReport :: [Region] -> ConstructionFault -> Report
-toReport arguments fault = case fault of
+toReport :: LengthUnit -> [Region] -> ConstructionFault -> Report
+toReport unit arguments fault = case fault of
   NothingCommon region a b gap ->
-    (at region "E0330" (describe a <> " and " <> describe b <> " do not meet"))
-      { message = ["They are " <> Decimal.nonZeroMm gap <> " apart."],
+    (at region "E0330" (describe unit a <> " and " <> describe unit b <> " do not meet"))
+      { message = ["They are " <> Decimal.nonZeroIn unit gap <> " apart."],
         hints = ["Correct the numbers of one of the two, so that they meet."]
       }
   SameThing region ->
@@ -101,37 +101,37 @@ toReport arguments fault = case fault of
       }
   Several region sought candidates ->
     (at region "E0332" (manyTitle sought (length candidates)))
-      { message = [listed candidates],
-        fixes = concatMap (chosenNear region arguments sought) candidates,
+      { message = [listed unit candidates],
+        fixes = concatMap (chosenNear unit region arguments sought) candidates,
         hints = [choiceHint sought]
       }
   SeveralTangents region sought answers ->
     (at region "E0332" (manyTitle sought (length answers)))
-      { message = [listed (map fst answers)],
-        fixes = concatMap (uncurry (chosenBySides arguments)) answers,
+      { message = [listed unit (map fst answers)],
+        fixes = concatMap (uncurry (chosenBySides unit arguments)) answers,
         hints = [choiceHint sought]
       }
   NoneFits region sought candidates ->
     (at region "E0333" ("no such " <> nameOf sought <> " lies where the choice looks for it"))
-      { message = [listed candidates],
-        fixes = concatMap (chosenNear region arguments sought) candidates
+      { message = [listed unit candidates],
+        fixes = concatMap (chosenNear unit region arguments sought) candidates
       }
   SeveralFit region sought candidates ->
     (at region "E0334" ("the choice leaves more than one " <> nameOf sought))
-      { message = [listed candidates],
-        fixes = concatMap (chosenNear region arguments sought) candidates,
+      { message = [listed unit candidates],
+        fixes = concatMap (chosenNear unit region arguments sought) candidates,
         hints = ["Choose by something that only one of them has."]
       }
   NoAnswer region reason ->
-    let (result, why) = noAnswerTexts reason
+    let (result, why) = noAnswerTexts unit reason
      in (at region "E0335" ("there is no such " <> result))
           { message = [why],
-            fixes = limitFixes arguments reason,
-            hints = [remedyText reason | null (limitFixes arguments reason)]
+            fixes = limitFixes unit arguments reason,
+            hints = [remedyText unit reason | null (limitFixes unit arguments reason)]
           }
   NotTouching region gap points ->
-    (at region "E0336" ("these do not touch: they miss it by " <> Decimal.mm gap))
-      { fixes = map (crossingFix region) points,
+    (at region "E0336" ("these do not touch: they miss it by " <> Decimal.inUnit unit gap))
+      { fixes = map (crossingFix unit region) points,
         hints = ["Correct the numbers, so that they touch."]
       }
   OnOneLine region ->
@@ -143,8 +143,8 @@ toReport arguments fault = case fault of
 
 -- | Fix that chooses one answer of a call by a point near it. The choice takes the place of the one
 -- that the program writes behind the arguments, if there is one.
-chosenNear :: Region -> [Region] -> Sought -> Candidate -> [Fix]
-chosenNear region arguments sought candidate =
+chosenNear :: LengthUnit -> Region -> [Region] -> Sought -> Candidate -> [Fix]
+chosenNear unit region arguments sought candidate =
   [ Fix.proposed
       ( Fix.exchange
           ("Write " <> words' <> ".")
@@ -152,7 +152,7 @@ chosenNear region arguments sought candidate =
           (", " <> words')
       )
     | Just p <- [keyPoint],
-      let words' = "near " <> Vec.toText 4 p,
+      let words' = "near " <> Vec.toText unit 4 p,
       figure : _ <- [drop (if sought == SoughtCircle then 2 else 1) arguments]
   ]
   where
@@ -163,8 +163,8 @@ chosenNear region arguments sought candidate =
 
 -- | Fix that chooses a tangent by the sides on which the circles lie: the words left and right
 -- before the arguments.
-chosenBySides :: [Region] -> Candidate -> [Maybe Bool] -> [Fix]
-chosenBySides arguments candidate sides =
+chosenBySides :: LengthUnit -> [Region] -> Candidate -> [Maybe Bool] -> [Fix]
+chosenBySides unit arguments candidate sides =
   [ Fix.proposed . Fix.joined title' $
       [ Fix.insertion "" (start at') (word <> " ")
         | (at', Just isLeft) <- zip arguments sides,
@@ -175,7 +175,7 @@ chosenBySides arguments candidate sides =
   where
     title' =
       "Choose "
-        <> described candidate
+        <> described unit candidate
         <> ": write "
         <> Text.intercalate " and " sideWords
         <> "."
@@ -185,31 +185,36 @@ chosenBySides arguments candidate sides =
     sideWord isLeft = if isLeft then "left" else "right"
 
 -- | Fixes of an argument that lies beyond the ends of a curve: the number at each end.
-limitFixes :: [Region] -> NoAnswer -> [Fix]
-limitFixes arguments reason = case (reason, drop 1 arguments) of
+limitFixes :: LengthUnit -> [Region] -> NoAnswer -> [Fix]
+limitFixes unit arguments reason = case (reason, drop 1 arguments) of
   (OutsideCurve (Mm low) (Mm high), argument : _) ->
     [limit argument (rounded ceiling low), limit argument (rounded floor high)]
   (BeyondLength (Mm l), argument : _) -> [limit argument (rounded floor l)]
   _ -> []
   where
     limit argument x =
-      let text = Decimal.mm (Mm x)
+      let text = Decimal.inUnit unit (Mm x)
        in Fix.proposed (Fix.exchange ("Write " <> text <> ".") argument text)
-    -- Rounds to three decimals, towards the curve.
+    -- Rounds to three decimals in mm, or four in inches, towards the curve.
     rounded :: (Double -> Int) -> Double -> Double
     rounded towards x
       | abs (x - nearest) < 1e-9 = nearest
-      | otherwise = fromIntegral (towards (x * 1000)) / 1000
+      | otherwise = fromIntegral (towards (x * steps)) / steps
       where
-        nearest = fromIntegral (round (x * 1000) :: Int) / 1000
+        nearest = fromIntegral (round (x * steps) :: Int) / steps
+    steps = Decimal.stepsPerMm unit
 
 -- | Fix that writes an intersection near a point in place of a point of tangency.
-crossingFix :: Region -> Point -> Fix
-crossingFix region p =
-  Fix.proposed . Fix.joined ("They cross: write intersection and near " <> Vec.toText 4 p <> ".") $
-    [ Fix.exchange "" name "intersection",
-      Fix.insertion "" (end region - 1) (", near " <> Vec.toText 4 p)
-    ]
+crossingFix :: LengthUnit -> Region -> Point -> Fix
+crossingFix unit region p =
+  Fix.proposed
+    . Fix.joined
+      ( "They cross: write intersection and near " <> Vec.toText unit 4 p
+          <> "."
+      )
+    $ [ Fix.exchange "" name "intersection",
+        Fix.insertion "" (end region - 1) (", near " <> Vec.toText unit 4 p)
+      ]
   where
     name = Region (start region) (start region + Text.length "tangency")
 
@@ -251,8 +256,8 @@ choiceHint sought = case sought of
 
 -- | The two texts of a report on a missing answer: the name of the result, and the sentence with
 -- the reason.
-noAnswerTexts :: NoAnswer -> (Text, Text)
-noAnswerTexts reason = case reason of
+noAnswerTexts :: LengthUnit -> NoAnswer -> (Text, Text)
+noAnswerTexts unit reason = case reason of
   NothingTouches sought ->
     ( nameOf sought,
       "No "
@@ -261,36 +266,39 @@ noAnswerTexts reason = case reason of
     )
   LinesNotParallel -> ("distance", "These lines are not parallel.")
   ZeroVector -> ("direction", "The vector has no length.")
-  NoTangent sought obstacle -> (nameOf sought, obstacleText obstacle)
+  NoTangent sought obstacle -> (nameOf sought, obstacleText unit obstacle)
   OutsideCurve low high ->
     ( "point",
-      "The curve runs from x = " <> Decimal.mm low <> " to x = " <> Decimal.mm high <> "."
+      "The curve runs from x = " <> Decimal.inUnit unit low <> " to x = "
+        <> Decimal.inUnit unit high
+        <> "."
     )
-  BeyondLength l -> ("point", "The curve is " <> Decimal.mm l <> " long.")
+  BeyondLength l -> ("point", "The curve is " <> Decimal.inUnit unit l <> " long.")
 
 -- | The sentence of a report that says how there would be an answer.
-remedyText :: NoAnswer -> Text
-remedyText reason = case reason of
+remedyText :: LengthUnit -> NoAnswer -> Text
+remedyText unit reason = case reason of
   NoTangent _ (PointInside depth) ->
-    "Move the point outwards by at least " <> Decimal.mm depth <> ", or take a smaller circle."
+    "Move the point outwards by at least " <> Decimal.inUnit unit depth
+      <> ", or take a smaller circle."
   NoTangent _ (CirclesOverlap overlap) ->
     "Move the circles apart by more than "
-      <> Decimal.mm overlap
+      <> Decimal.inUnit unit overlap
       <> ", or take smaller ones, or the tangent on the same side of both."
   NoTangent _ CircleInCircle -> "Correct the centre or the radius of one of them."
   NothingTouches _ -> "Correct the size, or the sides."
   _ -> "Correct the numbers."
 
 -- | The sentence of a report that explains why there is no common tangent.
-obstacleText :: TangentObstacle -> Text
-obstacleText obstacle = case obstacle of
+obstacleText :: LengthUnit -> TangentObstacle -> Text
+obstacleText unit obstacle = case obstacle of
   SamePoints -> "The points are the same."
   PointOnCircle p ->
     "The point "
-      <> Vec.toText 4 p
+      <> Vec.toText unit 4 p
       <> " lies on the circle; the line that touches it there is perpendicular to its radius."
   PointInside depth ->
-    "The point lies inside the circle, " <> Decimal.mm depth <> " from its edge."
+    "The point lies inside the circle, " <> Decimal.inUnit unit depth <> " from its edge."
   SameCircles -> "The circles are the same."
   CircleInCircle -> "One circle lies inside the other."
-  CirclesOverlap overlap -> "The circles overlap by " <> Decimal.mm overlap <> "."
+  CirclesOverlap overlap -> "The circles overlap by " <> Decimal.inUnit unit overlap <> "."

@@ -14,7 +14,7 @@ where
 
 import Base.Decimal qualified as Decimal
 import Base.Name (Name (..))
-import Base.Quantity (Mm (..))
+import Base.Quantity (LengthUnit, Mm (..))
 import Base.Region (Located (..), Region (..))
 import Data.List (nub)
 import Data.List.NonEmpty (NonEmpty)
@@ -101,12 +101,12 @@ apart fault = case fault of
   _ -> Nothing
 
 -- | The report of a fault.
-toReport :: ContourFault -> Report
-toReport fault = case fault of
+toReport :: LengthUnit -> ContourFault -> Report
+toReport unit fault = case fault of
   EmptyContour region (Name name) ->
     at region "E0307" ("the contour " <> quote name <> " has no elements")
   LoneElement region carrier closure ->
-    (at region "E0308" ("a closed contour cannot consist of " <> describe carrier <> " alone"))
+    (at region "E0308" ("a closed contour cannot consist of " <> describe unit carrier <> " alone"))
       { message = ["Only a circle or a closed curve closes by itself."],
         fixes = opened,
         hints = [alternatively opened "Add the other elements of the contour."]
@@ -123,7 +123,7 @@ toReport fault = case fault of
     (at region "E0329" "a circle or a closed curve alone needs no link")
       { fixes = [Fix.removal "Leave the link out: it closes by itself." region]
       }
-  NoEnd region carrier ends closure -> noEndReport region carrier ends closure
+  NoEnd region carrier ends closure -> noEndReport unit region carrier ends closure
   LinkAtEnd region closure ->
     (at region "E0310" "nothing follows this link")
       { others = [Label closure "the contour is open"],
@@ -151,17 +151,19 @@ toReport fault = case fault of
               <> ") on the other side."
           ]
       }
-  NotLinked neighbours linkFault -> LinkError.toReport neighbours linkFault
-  NotLinkedOften neighbours linkFault edges -> LinkError.repeatedReport neighbours edges linkFault
-  Overrun region carrier overlap links largest -> overrunReport region carrier overlap links largest
+  NotLinked neighbours linkFault -> LinkError.toReport unit neighbours linkFault
+  NotLinkedOften neighbours linkFault edges ->
+    LinkError.repeatedReport unit neighbours edges linkFault
+  Overrun region carrier overlap links largest ->
+    overrunReport unit region carrier overlap links largest
   ClosedMeant word inner ->
-    let r = toReport inner
+    let r = toReport unit inner
      in (at word "E0325" "the open contour ends at the point where it begins")
           { others = [l | l@(Label region _) <- others r, region /= word],
             fixes = [closedFix word]
           }
   OutOfOrder inner first second ->
-    let r = toReport inner
+    let r = toReport unit inner
      in r
           { others = [Label first "exchange this", Label second "with this"],
             fixes =
@@ -172,15 +174,15 @@ toReport fault = case fault of
     where
       exchange = "Exchange the two elements, if their order is wrong."
   AgainstTravel inner (Located region carrier) word ->
-    let r = toReport inner
+    let r = toReport unit inner
      in ( at
             region
             (code r)
-            ("the contour passes " <> describe carrier <> " in the opposite direction")
+            ("the contour passes " <> describe unit carrier <> " in the opposite direction")
         )
           { controlStop = controlStop r,
             fixes = case (carrier, word) of
-              (OnCircle sense c, Just w) -> [LinkError.senseFix (w, sense, c)]
+              (OnCircle sense c, Just w) -> [LinkError.senseFix unit (w, sense, c)]
               _ ->
                 [ Fix.proposed
                     (Fix.enclosure "Write reversed(…) around it." "reversed(" region ")")
@@ -188,14 +190,14 @@ toReport fault = case fault of
             hints = ["Or exchange its two points where it is made." | OnLine _ <- [carrier]]
           }
   NearExchanged inner (first, p) (second, q) ->
-    let r = toReport inner
+    let r = toReport unit inner
      in ( at
             first
             (code r)
             ( "the near points "
-                <> Vec.toText 4 p
+                <> Vec.toText unit 4 p
                 <> " and "
-                <> Vec.toText 4 q
+                <> Vec.toText unit 4 q
                 <> " have to change places"
             )
         )
@@ -210,7 +212,7 @@ toReport fault = case fault of
             "Join the circles by a tangent: write tangent in place of smooth and the line."
           | otherwise =
             "Join the circles by tangents: write tangent in place of smooth and each of the lines."
-        r = toReport inner
+        r = toReport unit inner
      in r
           { message = case inner of NotLinked _ (TurnsBack _) -> message r; _ -> [],
             hints = [],
@@ -223,12 +225,12 @@ toReport fault = case fault of
               ]
           }
   CrossesItself contour first second p hasFillets turned ->
-    (at first "E0325" ("the contour crosses or touches itself at " <> Vec.toText 4 p))
+    (at first "E0325" ("the contour crosses or touches itself at " <> Vec.toText unit 4 p))
       { label = "this element",
         others =
           [Label second "meets this one" | second /= first] <> [Label contour "in this contour"],
         fixes =
-          [LinkError.turnedFix fillets | Just fillets <- [turned]],
+          [LinkError.turnedFix unit fillets | Just fillets <- [turned]],
         hints =
           [ "Check the signs of the fillets: one without a sign is clockwise, one with a minus \
             \counter-clockwise."
@@ -241,9 +243,9 @@ toReport fault = case fault of
 
 -- | The report of an open contour that begins or ends on a circle. If the circle is the only
 -- element, @closure@ is the region of the word @open@.
-noEndReport :: Region -> ElementCarrier -> [ContourEnd] -> Maybe Region -> Report
-noEndReport region carrier ends closure =
-  (at region "E0309" ("an open contour cannot " <> verbs <> " on " <> describe carrier))
+noEndReport :: LengthUnit -> Region -> ElementCarrier -> [ContourEnd] -> Maybe Region -> Report
+noEndReport unit region carrier ends closure =
+  (at region "E0309" ("an open contour cannot " <> verbs <> " on " <> describe unit carrier))
     { message = ["A circle has no ends, so nothing says where on it the contour " <> third <> "."],
       fixes = maybe [pointFix] (pure . closedFix) closure,
       hints =
@@ -267,7 +269,7 @@ noEndReport region carrier ends closure =
     places = [verb e <> " at the point " <> rightmost (circle e) | e <- ends]
     rightmost c = case c of
       OnCircle _ (Circle m (Mm r)) ->
-        "(" <> Decimal.exact (Vec.x m + r) <> ", " <> Decimal.exact (Vec.y m) <> ")"
+        Vec.toExactText unit (Vec.point (Vec.x m + r) (Vec.y m))
       _ -> ""
 
 -- | Fix that makes a contour closed. @closure@ is the region of the word @open@.
@@ -284,13 +286,20 @@ isLong carrier = case carrier of
 
 -- | The report of an element that is too short for the links at its ends. It is too short by
 -- @overlap@. @largest@ is the largest fillet radius that fits, if any fits.
-overrunReport :: Region -> ElementCarrier -> Mm -> [Region] -> Maybe FittingFillets -> Report
-overrunReport region carrier overlap links largest =
+overrunReport ::
+  LengthUnit ->
+  Region ->
+  ElementCarrier ->
+  Mm ->
+  [Region] ->
+  Maybe FittingFillets ->
+  Report
+overrunReport unit region carrier overlap links largest =
   (at region "E0324" title)
     { label = "it would have to be traversed backwards",
       others = [Label l "this link takes its share" | l <- nub links],
       controlStop = Just "17535",
-      fixes = [LinkError.largestFix fillets | Just fillets <- [largest]],
+      fixes = [LinkError.largestFix unit fillets | Just fillets <- [largest]],
       hints =
         [ case largest of
             Just _ -> "Or make the element longer."
@@ -300,7 +309,7 @@ overrunReport region carrier overlap links largest =
     }
   where
     title =
-      describe carrier
+      describe unit carrier
         <> " is too short by "
-        <> Decimal.nonZeroMm overlap
+        <> Decimal.nonZeroIn unit overlap
         <> " for the links at its ends"

@@ -16,7 +16,7 @@ module Part.CurveError
 where
 
 import Base.Decimal qualified as Decimal
-import Base.Quantity (Mm (..), Rad, degrees, times)
+import Base.Quantity (LengthUnit, Mm (..), Rad, degrees, times)
 import Base.Region (Region)
 import Data.Maybe (fromMaybe)
 import Data.Text (Text)
@@ -94,8 +94,8 @@ data ListFault
   deriving stock (Eq, Show)
 
 -- | The report of a fault.
-toReport :: CurveMistake -> Report
-toReport fault = case fault of
+toReport :: LengthUnit -> CurveMistake -> Report
+toReport unit fault = case fault of
   BadPoints region listing row listFault ->
     (at (fromMaybe region row) "E0349" (listTitle (nounOf listing) listFault))
       { others = [Label region "for this curve" | Just r <- [row], r /= region],
@@ -114,17 +114,17 @@ toReport fault = case fault of
         region
         "E0350"
         ( "the curve folds over: at "
-            <> Vec.toText 3 p
+            <> Vec.toText unit 3 p
             <> " its radius of curvature is only "
-            <> below largest
+            <> below unit largest
         )
     )
       { message =
           [ "It is shifted there by "
-              <> Decimal.mm asked
+              <> Decimal.inUnit unit asked
               <> " towards the inside of the bend; a curve can be shifted by less than its radius."
           ],
-        hints = ["The largest distance that fits there is less than " <> below largest <> "."]
+        hints = ["The largest distance that fits there is less than " <> below unit largest <> "."]
       }
   ShiftsCorner region p angle ->
     ( at
@@ -133,7 +133,7 @@ toReport fault = case fault of
         ( "the curve has a corner of "
             <> Decimal.short (if degrees angle < 0.01 then 6 else 2) (degrees angle)
             <> " deg at "
-            <> Vec.toText 3 p
+            <> Vec.toText unit 3 p
         )
     )
       { message = ["A shift would tear it open there, or let its parts cross."],
@@ -152,26 +152,30 @@ toReport fault = case fault of
     (at region "E0353" "this change of distance ends before it starts")
       { hints = ["Give the two points in the direction of travel."]
       }
-  JoggleCoordinate region x points range -> coordinateReport region x points range
+  JoggleCoordinate region x points range -> coordinateReport unit region x points range
   JoggleNowhere region ->
     (at region "E0354" "a joggle needs two different coordinates")
       { controlStop = Just "15074",
         hints = ["Write the x at which the joggle begins and another one at which it ends."]
       }
-  JoggleRadius region r available largest -> radiusReport region r available largest
+  JoggleRadius region r available largest -> radiusReport unit region r available largest
   JoggleDepth region r least ->
-    (at region "E0355" ("a joggle of radius " <> Decimal.mm r <> " cannot go so deep"))
-      { message = ["Its radius has to be more than half of its depth, " <> Decimal.mm least <> "."],
+    (at region "E0355" ("a joggle of radius " <> Decimal.inUnit unit r <> " cannot go so deep"))
+      { message =
+          [ "Its radius has to be more than half of its depth, "
+              <> Decimal.inUnit unit least
+              <> "."
+          ],
         fixes =
           [ Fix.proposed (Fix.exchange ("Write a larger radius: " <> text <> ".") region text)
-            | let text = Decimal.mm (above least)
+            | let text = Decimal.inUnit unit (above unit least)
           ]
       }
 
 -- | The report of a joggle whose coordinate @x@ does not belong to exactly one point of the piece.
 -- @low@ and @high@ are the least and the greatest x of the piece.
-coordinateReport :: Region -> Mm -> [Point] -> (Mm, Mm) -> Report
-coordinateReport region x points (low, high) =
+coordinateReport :: LengthUnit -> Region -> Mm -> [Point] -> (Mm, Mm) -> Report
+coordinateReport unit region x points (low, high) =
   (at region "E0354" title)
     { message = [detail],
       controlStop = Just "15074",
@@ -179,16 +183,19 @@ coordinateReport region x points (low, high) =
     }
   where
     title = case points of
-      [] -> "the piece does not come to x = " <> Decimal.mm x
-      _ -> "the piece has more than one point with x = " <> Decimal.mm x
+      [] -> "the piece does not come to x = " <> Decimal.inUnit unit x
+      _ -> "the piece has more than one point with x = " <> Decimal.inUnit unit x
     detail = case points of
-      [] -> "It runs from x = " <> Decimal.mm low <> " to x = " <> Decimal.mm high <> "."
-      _ -> listed (map APoint points)
+      [] ->
+        "It runs from x = " <> Decimal.inUnit unit low <> " to x = "
+          <> Decimal.inUnit unit high
+          <> "."
+      _ -> listed unit (map APoint points)
 
 -- | The report of a joggle with radius @r@ that needs more than the @available@ length of curve
 -- between its ends. @largest@ is the largest radius that fits, or 'Nothing' if none fits.
-radiusReport :: Region -> Mm -> Mm -> Maybe Mm -> Report
-radiusReport region r available largest =
+radiusReport :: LengthUnit -> Region -> Mm -> Mm -> Maybe Mm -> Report
+radiusReport unit region r available largest =
   (at region "E0355" title)
     { controlStop = Just "14174",
       fixes = foldMap fitting largest,
@@ -197,26 +204,28 @@ radiusReport region r available largest =
   where
     title =
       "a joggle of radius "
-        <> Decimal.mm r
+        <> Decimal.inUnit unit r
         <> " does not fit into "
-        <> Decimal.mm available
+        <> Decimal.inUnit unit available
         <> " of the piece"
     none =
       "No radius fits: the depth must be less than half of this length, "
-        <> downTo (times 0.5 available)
+        <> downTo unit (times 0.5 available)
         <> "."
     fitting m =
       [ Fix.proposed
           ( Fix.exchange
-              ("Write the largest radius that fits: " <> downTo m <> ".")
+              ("Write the largest radius that fits: " <> downTo unit m <> ".")
               region
-              (downTo m)
+              (downTo unit m)
           )
       ]
 
--- | A length above a limit, rounded up to three decimals.
-above :: Mm -> Mm
-above (Mm x) = Mm (fromIntegral (ceiling (x * 1000 + 1) :: Int) / 1000)
+-- | A length above a limit, rounded up to three decimals in mm, or four in inches.
+above :: LengthUnit -> Mm -> Mm
+above unit (Mm x) = Mm (fromIntegral (ceiling (x * steps + 1) :: Int) / steps)
+  where
+    steps = Decimal.stepsPerMm unit
 
 -- | The title of a report on row or point @n@, which does not exist among @count@ rows or points.
 noRowTitle :: Listing -> Int -> Int -> Text

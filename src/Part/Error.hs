@@ -13,7 +13,7 @@ module Part.Error
 where
 
 import Base.Decimal qualified as Decimal
-import Base.Quantity (Mm (..), Seconds (..), times)
+import Base.Quantity (LengthUnit, Mm (..), Seconds (..), times)
 import Base.Region (Region (Region))
 import Data.List (nub)
 import Data.Maybe (isNothing, listToMaybe)
@@ -110,18 +110,18 @@ data CutterStatement = MillStatement | TurnStatement | PocketStatement | DrillSt
 
 -- | The report of a mistake. It also points at the outermost and at the innermost function call in
 -- which the mistake was found.
-toReport :: Error -> Report
-toReport (Error fact calls arguments) =
+toReport :: LengthUnit -> Error -> Report
+toReport unit (Error fact calls arguments) =
   report {others = others report <> [Label c "in this call" | c <- nub (innermost <> outermost)]}
   where
-    report = factReport arguments fact
+    report = factReport unit arguments fact
     innermost = take 1 calls
     outermost = take 1 (reverse calls)
 
 -- | The report of a fact, without the function calls. @arguments@ are the regions of the arguments
 -- of the built-in function that found it.
-factReport :: [Region] -> ValueFact -> Report
-factReport arguments fact = case fact of
+factReport :: LengthUnit -> [Region] -> ValueFact -> Report
+factReport unit arguments fact = case fact of
   DivisionByZero region ->
     (at region "E0301" "this divides by 0")
       { hints = ["Check the divisor, or leave the division out where it is 0: if … then … else …"]
@@ -140,7 +140,7 @@ factReport arguments fact = case fact of
     (at region "E0326" "this is further than any machine reaches")
       { message =
           [ "A place is no further than "
-              <> Decimal.mm limit
+              <> Decimal.inUnit unit limit
               <> " from zero, and no radius is longer."
           ],
         hints = ["Check the units and the decimal points of the numbers."]
@@ -154,10 +154,16 @@ factReport arguments fact = case fact of
         hints = ["Repeat fewer times, or give a name to a value that is computed several times."]
       }
   RadiusNotPositive region r index ->
-    (at region "E0304" ("a circle needs a radius above 0, and this one is " <> Decimal.mm r))
-      { label = Decimal.mm r,
+    ( at
+        region
+        "E0304"
+        ( "a circle needs a radius above 0, and this one is "
+            <> Decimal.inUnit unit r
+        )
+    )
+      { label = Decimal.inUnit unit r,
         fixes =
-          [ withoutMinus argument (Decimal.mm (times (-1) r))
+          [ withoutMinus argument (Decimal.inUnit unit (times (-1) r))
             | r < Mm 0,
               Just k <- [index],
               argument : _ <- [drop k arguments]
@@ -168,19 +174,19 @@ factReport arguments fact = case fact of
     (at region "E0305" "this line has no length")
       { message =
           [ "Both its points are "
-              <> Vec.toText 4 p
+              <> Vec.toText unit 4 p
               <> "; a line needs two different ones."
           ],
         hints = ["Correct the coordinates of one of them."]
       }
   NotPositive region parameter x ->
-    (at region "E0306" (limited parameter "has to be more than 0" x))
-      { fixes = signFixes region parameter arguments x,
-        hints = ["Write a number above 0." | null (signFixes region parameter arguments x)]
+    (at region "E0306" (limited unit parameter "has to be more than 0" x))
+      { fixes = signFixes unit region parameter arguments x,
+        hints = ["Write a number above 0." | null (signFixes unit region parameter arguments x)]
       }
   Negative region parameter x ->
-    (at region "E0345" (limited parameter "cannot be less than 0" x))
-      { fixes = signFixes region parameter arguments x
+    (at region "E0345" (limited unit parameter "cannot be less than 0" x))
+      { fixes = signFixes unit region parameter arguments x
       }
   NotWhole region number range x -> notWholeReport region number range arguments x
   NoSuchItem region n count ->
@@ -227,10 +233,10 @@ factReport arguments fact = case fact of
     where
       inOnePass = [Fix.proposed (Fix.removal "Leave the step out: one pass." s) | Just s <- [steps]]
   SafeTooLow region (Mm safe) (higher, Mm clearance) ->
-    let text = Decimal.mm (Mm clearance)
+    let text = Decimal.inUnit unit (Mm clearance)
      in (at region "E0361" "the safe height is below the clearance height")
           { message =
-              [ "It is " <> Decimal.mm (Mm safe) <> ", and the clearance height is " <> text <> "."
+              [ "It is " <> Decimal.inUnit unit (Mm safe) <> ", and the clearance height is " <> text <> "."
               ],
             others = [Label higher ("a clearance of " <> text)],
             fixes = [Fix.proposed (Fix.exchange ("Write " <> text <> ".") region text)]
@@ -248,20 +254,24 @@ factReport arguments fact = case fact of
     (at region "E0363" ("a dwell is at most " <> Decimal.short 0 most <> " s"))
       { hints = ["Write stop if the program has to wait for the operator."]
       }
-  InConstruction fault -> ConstructionError.toReport arguments fault
-  InContour fault -> ContourError.toReport fault
-  InCurve fault -> CurveError.toReport fault
-  InPocket fault -> PocketError.toReport fault
+  InConstruction fault -> ConstructionError.toReport unit arguments fault
+  InContour fault -> ContourError.toReport unit fault
+  InCurve fault -> CurveError.toReport unit fault
+  InPocket fault -> PocketError.toReport unit fault
 
 -- | The sentence that a quantity has the value @x@, which breaks a rule.
-limited :: LimitedQuantity -> Text -> Double -> Text
-limited parameter rule x =
-  Parameter.name parameter <> " " <> rule <> ", and this one is " <> Parameter.written parameter x
+limited :: LengthUnit -> LimitedQuantity -> Text -> Double -> Text
+limited unit parameter rule x =
+  Parameter.name parameter <> " " <> rule <> ", and this one is "
+    <> Parameter.written unit parameter x
 
 -- | Fixes of a quantity with the negative value @x@: the same number without its minus.
-signFixes :: Region -> LimitedQuantity -> [Region] -> Double -> [Fix]
-signFixes region parameter arguments x =
-  [withoutMinus place (Parameter.written parameter (negate x)) | x < 0, Just place <- [written]]
+signFixes :: LengthUnit -> Region -> LimitedQuantity -> [Region] -> Double -> [Fix]
+signFixes unit region parameter arguments x =
+  [ withoutMinus place (Parameter.written unit parameter (negate x))
+    | x < 0,
+      Just place <- [written]
+  ]
   where
     written = case parameter of
       Parameter.CurveTolerance -> listToMaybe (reverse arguments)

@@ -7,17 +7,21 @@ module Part.ErrorText
     listed,
     described,
     andMore,
+    meetingPoints,
+    mostPoints,
+    nested,
     below,
     downTo,
   )
 where
 
 import Base.Decimal qualified as Decimal
-import Base.Quantity (Mm (..), degrees)
+import Base.Quantity (LengthUnit, Mm (..), degrees)
 import Data.Text (Text)
 import Data.Text qualified as Text
 import Geometry.Carrier (Circle (..), Line (..))
 import Geometry.Carrier qualified as Carrier
+import Geometry.Construction.Intersection qualified as Intersection
 import Geometry.ElementCarrier (ElementCarrier (..))
 import Geometry.MeasuredPolyarc qualified as MeasuredPolyarc
 import Geometry.Tolerance qualified as Tolerance
@@ -33,27 +37,29 @@ alternatively fixes hint
   | otherwise = "Or " <> Text.toLower (Text.take 1 hint) <> Text.drop 1 hint
 
 -- | The description of an element's carrier, with its coordinates.
-describe :: ElementCarrier -> Text
-describe carrier = case carrier of
-  OnLine l -> describeLine l
-  OnCircle _ c -> describeCircle c
+describe :: LengthUnit -> ElementCarrier -> Text
+describe unit carrier = case carrier of
+  OnLine l -> describeLine unit l
+  OnCircle _ c -> describeCircle unit c
   OnCurve c ->
     "the curve from "
-      <> Vec.toText 4 (MeasuredPolyarc.start c)
+      <> Vec.toText unit 4 (MeasuredPolyarc.start c)
       <> " to "
-      <> Vec.toText 4 (MeasuredPolyarc.end c)
-  AtPoint p -> "the point " <> Vec.toText 4 p
+      <> Vec.toText unit 4 (MeasuredPolyarc.end c)
+  AtPoint p -> "the point " <> Vec.toText unit 4 p
 
 -- | The description of a line. A line of the length 1 is made by a function that fixes no ends; it
 -- is named by a point and its direction.
-describeLine :: Line -> Text
-describeLine l@(Line p q)
-  | abs (length' - 1) > noise = "the line from " <> Vec.toText 4 p <> " to " <> Vec.toText 4 q
-  | abs (Vec.y p - Vec.y q) < noise = "the line y = " <> Decimal.short 4 (Vec.y p)
-  | abs (Vec.x p - Vec.x q) < noise = "the line x = " <> Decimal.short 4 (Vec.x p)
+describeLine :: LengthUnit -> Line -> Text
+describeLine unit l@(Line p q)
+  | abs (length' - 1) > noise =
+    "the line from " <> Vec.toText unit 4 p <> " to "
+      <> Vec.toText unit 4 q
+  | abs (Vec.y p - Vec.y q) < noise = "the line y = " <> Decimal.shortIn unit 4 (Mm (Vec.y p))
+  | abs (Vec.x p - Vec.x q) < noise = "the line x = " <> Decimal.shortIn unit 4 (Mm (Vec.x p))
   | otherwise =
     "the line through "
-      <> Vec.toText 4 p
+      <> Vec.toText unit 4 p
       <> " at "
       <> Decimal.short 4 (degrees (Vec.angle (Carrier.direction l)))
       <> " deg"
@@ -61,9 +67,9 @@ describeLine l@(Line p q)
     Mm length' = Vec.distance p q
     Mm noise = Tolerance.coincident
 
-describeCircle :: Circle -> Text
-describeCircle (Circle c r) =
-  "the circle of radius " <> Decimal.mm r <> " about " <> Vec.toText 4 c
+describeCircle :: LengthUnit -> Circle -> Text
+describeCircle unit (Circle c r) =
+  "the circle of radius " <> Decimal.inUnit unit r <> " about " <> Vec.toText unit 4 c
 
 -- | One of the answers to a construction, for a report.
 data Candidate = APoint Point | ALine Line | ACircle Circle
@@ -71,29 +77,29 @@ data Candidate = APoint Point | ALine Line | ACircle Circle
 
 -- | The sentence that lists the answers of a construction with their coordinates. It lists at most
 -- 'mostCandidates'.
-listed :: [Candidate] -> Text
-listed candidates = case candidates of
+listed :: LengthUnit -> [Candidate] -> Text
+listed unit candidates = case candidates of
   [] -> "There is none."
-  [one] -> "There is only " <> described one <> "."
+  [one] -> "There is only " <> described unit one <> "."
   _
     | length candidates > mostCandidates ->
       "There are "
-        <> Text.intercalate ", " (map described (take mostCandidates candidates))
+        <> Text.intercalate ", " (map (described unit) (take mostCandidates candidates))
         <> andMore mostCandidates candidates
         <> "."
   _ ->
     "There are "
-      <> Text.intercalate ", " (map described (init candidates))
+      <> Text.intercalate ", " (map (described unit) (init candidates))
       <> " and "
-      <> described (last candidates)
+      <> described unit (last candidates)
       <> "."
 
 -- | The words for an answer.
-described :: Candidate -> Text
-described candidate = case candidate of
-  APoint p -> Vec.toText 4 p
-  ALine l -> describeLine l
-  ACircle c -> describeCircle c
+described :: LengthUnit -> Candidate -> Text
+described unit candidate = case candidate of
+  APoint p -> Vec.toText unit 4 p
+  ALine l -> describeLine unit l
+  ACircle c -> describeCircle unit c
 
 -- | The largest number of answers that a report lists. This is also the largest number of circles
 -- of one radius that can touch two given circles.
@@ -107,14 +113,47 @@ andMore most answers = case length answers - most of
   n | n > 0 -> " and " <> Decimal.whole n <> " more"
   _ -> ""
 
--- | The text of a limit in mm that values must stay below. The limit is rounded down to three
--- decimals. 'Tolerance.coincident' is added first, so that a rounding error does not turn 5 into
--- 4.999.
-below :: Mm -> Text
-below (Mm x) = downTo (Mm (x + noise))
+-- | The sentence that lists the points in which two neighbours meet. It lists at most 'mostPoints'.
+meetingPoints :: LengthUnit -> [Point] -> Text
+meetingPoints unit points =
+  "They meet at "
+    <> Text.intercalate
+      (if length points > mostPoints then ", " else " and at ")
+      (map (Vec.toText unit 4) (take mostPoints points))
+    <> andMore mostPoints points
+    <> "."
+
+-- | The largest number of points that a report lists.
+mostPoints :: Int
+mostPoints = 6
+
+-- | The sentence that one circle lies inside the other. 'Nothing' for other circles.
+nested :: LengthUnit -> Circle -> Circle -> Maybe [Text]
+nested unit c d
+  | Intersection.Apart _ <- Intersection.circles c d,
+    apart < max (radius c) (radius d) =
+    Just
+      [ "One circle lies inside the other: their centres are "
+          <> Decimal.inUnit unit apart
+          <> " apart, and their radii are "
+          <> Decimal.inUnit unit (radius c)
+          <> " and "
+          <> Decimal.inUnit unit (radius d)
+          <> "."
+      ]
+  | otherwise = Nothing
+  where
+    apart = Vec.distance (centre c) (centre d)
+
+-- | The text of a limit that values must stay below. The limit is rounded down to three decimals in
+-- mm, or four in inches. 'Tolerance.coincident' is added first, so that a rounding error does not
+-- turn 5 into 4.999.
+below :: LengthUnit -> Mm -> Text
+below unit (Mm x) = downTo unit (Mm (x + noise))
   where
     Mm noise = Tolerance.coincident
 
--- | The text of a limit in mm that values may reach. The limit is rounded down to three decimals.
-downTo :: Mm -> Text
-downTo (Mm x) = Decimal.mm (Mm (fromIntegral (floor (x * 1000) :: Int) / 1000))
+-- | The text of a limit that values may reach. The limit is rounded down to three decimals in mm,
+-- or four in inches.
+downTo :: LengthUnit -> Mm -> Text
+downTo unit x = Decimal.inUnit unit (Decimal.roundedDown unit x)

@@ -55,12 +55,14 @@ data Environment = Environment
     -- its body
     functions :: Map Name (Map Name Value, NonEmpty Name, Expr),
     -- | the parameters of functions and the variables of repetitions
-    locals :: Map Name Value
+    locals :: Map Name Value,
+    -- | the unit of lengths in the texts of 'written'
+    textUnit :: LengthUnit
   }
   deriving stock (Show)
 
--- | The environment at the start of a program, without any names.
-empty :: Environment
+-- | The environment at the start of a program whose reports are in a unit, without any names.
+empty :: LengthUnit -> Environment
 empty = Environment Map.empty Map.empty Map.empty
 
 -- | Binds a local name.
@@ -178,22 +180,31 @@ items v = case v of
   ListValue vs -> Vector.toList vs
   _ -> bug "a value that is no list where a list was checked"
 
--- | The text of a value, for editors and reports. @dimension@ is that of the numbers in the value
--- and decides the unit. The text is empty for a transformation.
-written :: Dimension -> Value -> Text
-written dimension v = case v of
-  Quantity x ->
-    let unit = Dimension.unitWord dimension
-     in Decimal.short 6 (x / Dimension.defaultUnit Millimetres dimension)
-          <> (if unit == "" then "" else " " <> unit)
-  Spatial p -> Vec.toText 4 (Value.fromOrigin p)
-  SpaceValue p (Mm z) -> Vec.toText 4 p <> " at height " <> Decimal.mm (Mm z)
+-- | The text of a value, for editors and reports, in which lengths have the unit @inUnit@.
+-- @dimension@ is that of the numbers in the value and decides the unit of a number. The text is
+-- empty for a transformation.
+written :: LengthUnit -> Dimension -> Value -> Text
+written inUnit dimension v = case v of
+  Quantity x -> numberText (x / Dimension.defaultUnit inUnit dimension) <> word
+  Spatial p -> place (Value.fromOrigin p)
+  SpaceValue p z -> place p <> " at height " <> Decimal.inUnit inUnit z
   TruthValue b -> if b then "true" else "false"
-  CircleValue (Circle c r) -> "radius " <> Decimal.mm r <> " about " <> Vec.toText 4 c
-  LineValue (Line p q) -> "from " <> Vec.toText 4 p <> " to " <> Vec.toText 4 q
-  ContourValue c -> "length " <> Decimal.mm (Polyarc.length (polyarcOf c))
+  CircleValue (Circle c r) -> "radius " <> Decimal.inUnit inUnit r <> " about " <> place c
+  LineValue (Line p q) -> "from " <> place p <> " to " <> place q
+  ContourValue c -> "length " <> Decimal.inUnit inUnit (Polyarc.length (polyarcOf c))
   ListValue vs ->
     Decimal.whole (Vector.length vs) <> (if Vector.length vs == 1 then " item" else " items")
   PlacementValue _ -> ""
   TableValue t -> Decimal.whole (NumberTable.count (Curve.rows t)) <> " rows"
-  CurveValue c -> "length " <> Decimal.mm (Exact.length (Curve.exact c))
+  CurveValue c -> "length " <> Decimal.inUnit inUnit (Exact.length (Curve.exact c))
+  where
+    place = Vec.toText inUnit 4
+    word = case Dimension.unitWord inUnit dimension of
+      "" -> ""
+      name -> " " <> name
+    -- The smallest differences that count in mm need more decimals in inches.
+    numberText x
+      | Dimension.unitWord inUnit dimension == Dimension.unitWord Millimetres dimension =
+        Decimal.short 6 x
+      | Decimal.short 7 x == "0" = Decimal.short 9 x
+      | otherwise = Decimal.short 7 x

@@ -9,7 +9,7 @@ where
 
 import Base.Crash (bug)
 import Base.Name (Name)
-import Base.Quantity (Mm)
+import Base.Quantity (LengthUnit, Mm)
 import Base.Region (Located (..), Region)
 import Base.Result (Result (..))
 import Checked.Dimension (Dimension)
@@ -68,12 +68,13 @@ evaluate program =
   Result {warnings = [], errors = reverse (errors' final) <> lowSafeHeights, output = Just part}
   where
     lowSafeHeights = lowSafeHeight final
-    final = foldl' step initial (Checked.statements program)
+    final = foldl' step (initial (Checked.unit program)) (Checked.statements program)
     part =
       Part
         { name = Checked.name program,
           title = Checked.title program,
           machine = Checked.machine program,
+          unit = Checked.unit program,
           start = start' final,
           firstCutter = initialCutter final,
           firstToolNumber = initialNumber final,
@@ -95,13 +96,13 @@ lowSafeHeight final =
       safe < clearance
   ]
 
--- | The state before the first statement.
-initial :: State
-initial =
+-- | The state before the first statement. @inUnit@ is the unit of lengths in texts of values.
+initial :: LengthUnit -> State
+initial inUnit =
   State
     { context =
         Context
-          { environment = Expression.empty,
+          { environment = Expression.empty inUnit,
             cutter = Nothing,
             chordError = Nothing,
             modalFeed = Nothing,
@@ -266,7 +267,7 @@ statementSteps = 5
 define :: State -> Located Name -> Dimension -> Value -> State
 define state name d v =
   (withEnvironment state env')
-    { readings' = (region name, Expression.written d v) : readings' state,
+    { readings' = (region name, Expression.written (Expression.textUnit env) d v) : readings' state,
       fittings' =
         [(name, f) | CurveValue PartCurve {fitting = Just f} <- [v]] <> fittings' state
     }
@@ -314,7 +315,8 @@ repeated (Located at name) d body vs state = foldl once state vs
   where
     env = environment (context state)
     once before v = foldl step (withEnvironment (kept v before) (Expression.bind name v env)) body
-    kept v before = before {readings' = (at, Expression.written d v) : readings' before}
+    kept v before = before {readings' = (at, written v) : readings' before}
+    written = Expression.written (Expression.textUnit env) d
 
 -- | Evaluates the block @body@, and applies the transformation @placing@ to its operations.
 transformed :: [Checked.Statement] -> Transformation -> State -> State

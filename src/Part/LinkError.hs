@@ -17,7 +17,7 @@ module Part.LinkError
 where
 
 import Base.Decimal qualified as Decimal
-import Base.Quantity (Mm (..), Rad, degrees, minus)
+import Base.Quantity (LengthUnit, Mm (..), Rad, degrees, minus)
 import Base.Region (Located (..), Region (..))
 import Data.List (nub)
 import Data.List.NonEmpty (NonEmpty (..))
@@ -32,7 +32,14 @@ import Geometry.ElementCarrier (ElementCarrier (..))
 import Geometry.MeasuredPolyarc qualified as MeasuredPolyarc
 import Geometry.Vec (Point)
 import Geometry.Vec qualified as Vec
-import Part.ErrorText (alternatively, andMore, describe, downTo)
+import Part.ErrorText
+  ( alternatively,
+    describe,
+    downTo,
+    meetingPoints,
+    mostPoints,
+    nested,
+  )
 import Part.Tolerance qualified as Tolerance
 import Report.Fix (Fix)
 import Report.Fix qualified as Fix
@@ -91,25 +98,35 @@ newtype FittingFillets = FittingFillets [(Region, Sense, Mm)]
   deriving stock (Eq, Show)
 
 -- | The report of a link that cannot join its neighbours.
-toReport :: Neighbours -> LinkFault -> Report
-toReport j fault = case fault of
+toReport :: LengthUnit -> Neighbours -> LinkFault -> Report
+toReport unit j fault = case fault of
   NoMeeting gap ->
-    (titled "E0311" (both j <> " do not meet: they are " <> Decimal.nonZeroMm gap <> " apart"))
+    ( titled
+        "E0311"
+        ( both unit j <> " do not meet: they are " <> Decimal.nonZeroIn unit gap
+            <> " apart"
+        )
+    )
       { controlStop = Just "17533",
-        message = touchText j,
-        fixes = joinFixes j <> tangentFixes j,
+        message = touchText unit j,
+        fixes = joinFixes unit j <> tangentFixes j,
         hints =
           [ alternatively
-              (joinFixes j <> tangentFixes j)
+              (joinFixes unit j <> tangentFixes j)
               "Correct the numbers of one of the two, so that they meet."
           ]
       }
   ParallelLines gap ->
-    (titled "E0312" ("these lines are parallel, " <> Decimal.mm gap <> " apart, and do not meet"))
+    ( titled
+        "E0312"
+        ( "these lines are parallel, " <> Decimal.inUnit unit gap
+            <> " apart, and do not meet"
+        )
+    )
       { controlStop = Just "17533",
         message = ["A closed contour joins its last element to its first." | isClosing j],
-        fixes = joinFixes j,
-        hints = [alternatively (joinFixes j) "Write the edge that is missing between them."]
+        fixes = joinFixes unit j,
+        hints = [alternatively (joinFixes unit j) "Write the edge that is missing between them."]
       }
   SameCurve isEnough ->
     (titled "E0313" "these two elements lie on the same curve, so they have no one point in common")
@@ -117,27 +134,27 @@ toReport j fault = case fault of
         hints = ["Leave one of them out, or correct its numbers."]
       }
   AmbiguousMeeting points ->
-    (titled "E0314" (both j <> " meet in " <> Decimal.whole (length points) <> " points"))
-      { message = [meetingPoints points],
-        fixes = map (nearFix j) (take mostPoints points)
+    (titled "E0314" (both unit j <> " meet in " <> Decimal.whole (length points) <> " points"))
+      { message = [meetingPoints unit points],
+        fixes = map (nearFix unit j) (take mostPoints points)
       }
   NotSmooth gap rounded ->
-    (titled "E0315" (both j <> " do not touch: they miss it by " <> Decimal.mm gap))
+    (titled "E0315" (both unit j <> " do not touch: they miss it by " <> Decimal.inUnit unit gap))
       { controlStop = Just "17533",
-        message = touchText j,
-        fixes = [filletsFix "Join them with a fillet: " fillets | Just fillets <- [rounded]],
+        message = touchText unit j,
+        fixes = [filletsFix unit "Join them with a fillet: " fillets | Just fillets <- [rounded]],
         hints =
           [ alternatively
-              (maybe [] (pure . filletsFix "") rounded)
+              (maybe [] (pure . filletsFix unit "") rounded)
               "Correct the numbers of one of the two, so that they touch."
           ]
       }
-  Kinked angle isEnough -> kinkedReport j angle isEnough
+  Kinked angle isEnough -> kinkedReport unit j angle isEnough
   TurnsBack mending ->
     (titled "E0316" "the elements touch here, but the contour would have to turn back")
       { message = sideText j,
         fixes =
-          [ senseFix (word, sense, c)
+          [ senseFix unit (word, sense, c)
             | (at', word, sense, c) <- turnable j,
               at' `elem` mending
           ],
@@ -147,7 +164,7 @@ toReport j fault = case fault of
             | null mending
           ]
       }
-  TangentNeedsCircles -> repeatedReport (j :| []) [] fault
+  TangentNeedsCircles -> repeatedReport unit (j :| []) [] fault
   ConcentricTangent ->
     (titled "E0318" "circles with the same centre have no common tangent")
       { controlStop = Just "17533",
@@ -158,29 +175,30 @@ toReport j fault = case fault of
       { fixes = if isEnough then leaveOutSecond j else [],
         hints = ["Leave one of them out, or correct its centre or its radius."]
       }
-  NoCommonTangent senses -> noTangentReport j senses
-  FilletAtPoint -> repeatedReport (j :| []) [] fault
-  NoFillet sense r largest turned -> noFilletReport j sense r (largest, turned)
+  NoCommonTangent senses -> noTangentReport unit j senses
+  FilletAtPoint -> repeatedReport unit (j :| []) [] fault
+  NoFillet sense r largest turned -> noFilletReport unit j sense r (largest, turned)
   AmbiguousFillet centres ->
     (titled "E0323" "two fillets make contours of the same length")
       { message =
           [ "Their centres are "
-              <> Text.intercalate " and " (map (Vec.toText 4) centres)
+              <> Text.intercalate " and " (map (Vec.toText unit 4) centres)
               <> "."
           ],
         hints =
           ["Change the order or the senses of the elements so that one of them is the shorter way."]
       }
   where
-    titled = linkTitle j
+    titled = linkTitle unit j
 
 -- | The report of a smooth link at a corner. If @isEnough@, the contour has no fault without it.
-kinkedReport :: Neighbours -> Rad -> Bool -> Report
-kinkedReport j angle isEnough =
+kinkedReport :: LengthUnit -> Neighbours -> Rad -> Bool -> Report
+kinkedReport unit j angle isEnough =
   ( linkTitle
+      unit
       j
       "E0348"
-      (both j <> " meet at an angle of " <> Decimal.short 2 (degrees angle) <> " deg")
+      (both unit j <> " meet at an angle of " <> Decimal.short 2 (degrees angle) <> " deg")
   )
     { message =
         [ "Smooth neighbours differ in direction by at most "
@@ -200,9 +218,14 @@ kinkedReport j angle isEnough =
         | isEnough
       ]
 
-noTangentReport :: Neighbours -> [(Sense, Sense)] -> Report
-noTangentReport j senses =
-  (linkTitle j "E0320" "no common tangent fits the senses in which these circles are traversed")
+noTangentReport :: LengthUnit -> Neighbours -> [(Sense, Sense)] -> Report
+noTangentReport unit j senses =
+  ( linkTitle
+      unit
+      j
+      "E0320"
+      "no common tangent fits the senses in which these circles are traversed"
+  )
     { controlStop = Just "17533",
       message = ["One circle lies inside the other: they have no common tangent." | null senses],
       fixes = concatMap pairFix senses,
@@ -228,20 +251,22 @@ noTangentReport j senses =
 -- | The report of a fillet that does not fit. The last argument has fillets that do: those with the
 -- largest radius, and those with the other sense.
 noFilletReport ::
-  Neighbours -> Sense -> Mm -> (Maybe FittingFillets, Maybe FittingFillets) -> Report
-noFilletReport j sense r (largest, turned) =
-  ( linkTitle
-      j
-      "E0322"
-      ( "no "
-          <> (if sense == Clockwise then "clockwise" else "counter-clockwise")
-          <> " arc of radius "
-          <> Decimal.mm r
-          <> " leads from "
-          <> describe (value (before j))
-          <> " to "
-          <> describe (value (after j))
-      )
+  LengthUnit ->
+  Neighbours ->
+  Sense ->
+  Mm ->
+  (Maybe FittingFillets, Maybe FittingFillets) ->
+  Report
+noFilletReport unit j sense r (largest, turned) =
+  ( linkTitle unit j "E0322" $
+      "no "
+        <> (if sense == Clockwise then "clockwise" else "counter-clockwise")
+        <> " arc of radius "
+        <> Decimal.inUnit unit r
+        <> " leads from "
+        <> describe unit (value (before j))
+        <> " to "
+        <> describe unit (value (after j))
   )
     { controlStop = Just "17535",
       message = why,
@@ -250,70 +275,61 @@ noFilletReport j sense r (largest, turned) =
     }
   where
     offered =
-      [largestFix fillets | Just fillets <- [largest]]
-        <> [turnedFix fillets | Just fillets <- [turned]]
+      [largestFix unit fillets | Just fillets <- [largest]]
+        <> [turnedFix unit fillets | Just fillets <- [turned]]
     (why, hint) = case (value (before j), value (after j)) of
       (OnLine l, OnLine m)
         | Intersection.Apart gap <- Intersection.lines l m ->
           ( [ "The lines are parallel, "
-                <> Decimal.mm gap
+                <> Decimal.inUnit unit gap
                 <> " apart: there is no corner to round."
             ],
             "Write the element that is missing between them."
           )
       (OnCircle _ c, OnCircle _ d)
-        | Just words' <- nested c d -> (words', "Correct the centre or the radius of one of them.")
+        | Just words' <- nested unit c d ->
+          (words', "Correct the centre or the radius of one of them.")
       _ ->
         ( [],
           "A radius without a sign makes a clockwise arc, one with a minus a counter-clockwise \
           \one; check the sign, the radius, and the senses of the neighbours."
         )
 
--- | The sentence that one circle lies inside the other. 'Nothing' for other circles.
-nested :: Circle -> Circle -> Maybe [Text]
-nested c d
-  | Intersection.Apart _ <- Intersection.circles c d,
-    apart < max (radius c) (radius d) =
-    Just
-      [ "One circle lies inside the other: their centres are "
-          <> Decimal.mm apart
-          <> " apart, and their radii are "
-          <> Decimal.mm (radius c)
-          <> " and "
-          <> Decimal.mm (radius d)
-          <> "."
-      ]
-  | otherwise = Nothing
-  where
-    apart = Vec.distance (centre c) (centre d)
-
 -- | The report of one cause that several links of a contour have in common: a tangent beside
 -- elements that are no circles, or a fillet beside a point. It points at the first of these links.
 -- If all elements of the contour are points, @edges@ has the region of each point that has a point
 -- before it, and the point before it.
-repeatedReport :: NonEmpty Neighbours -> [(Region, Point)] -> LinkFault -> Report
-repeatedReport js@(j :| more) edges fault = case fault of
+repeatedReport :: LengthUnit -> NonEmpty Neighbours -> [(Region, Point)] -> LinkFault -> Report
+repeatedReport unit js@(j :| more) edges fault = case fault of
   FilletAtPoint ->
-    (linkTitle j "E0321" ("a fillet or chamfer rounds a corner of edges, not a point" <> count))
+    ( linkTitle
+        unit
+        j
+        "E0321"
+        ( "a fillet or chamfer rounds a corner of edges, not a point"
+            <> count
+        )
+    )
       { others = places,
-        fixes = edgesFix edges,
+        fixes = edgesFix unit edges,
         hints = ["Write the edges as lines: line(p, q)."]
       }
   _ ->
     ( linkTitle
+        unit
         j
         "E0317"
         ( "a tangent joins two circles, not "
-            <> describe (value (if isCircle (value (before j)) then after j else before j))
+            <> describe unit (value (if isCircle (value (before j)) then after j else before j))
             <> count
         )
     )
-      { others = if null more then others (linkTitle j "E0317" "") else places,
-        fixes = commonFixes js,
+      { others = if null more then others (linkTitle unit j "E0317" "") else places,
+        fixes = commonFixes unit js,
         hints =
           [ "Where the two elements touch, write smooth; where they meet at a corner, nothing; to \
             \round the corner, fillet and a radius."
-            | null (commonFixes js)
+            | null (commonFixes unit js)
           ]
       }
   where
@@ -324,8 +340,8 @@ repeatedReport js@(j :| more) edges fault = case fault of
 
 -- | The sentence that says what would make a circle touch a line or another circle. Empty for other
 -- neighbours.
-touchText :: Neighbours -> [Text]
-touchText j = case (value (before j), value (after j)) of
+touchText :: LengthUnit -> Neighbours -> [Text]
+touchText unit j = case (value (before j), value (after j)) of
   (OnLine l, OnCircle _ c) -> beside (abs' (Carrier.signedDistance l (centre c))) c "line"
   (OnCircle _ c, OnLine l) -> beside (abs' (Carrier.signedDistance l (centre c))) c "line"
   (OnCircle _ c, OnCircle _ d) ->
@@ -338,11 +354,11 @@ touchText j = case (value (before j), value (after j)) of
     abs' (Mm x) = Mm (abs x)
     beside r c other =
       [ "With the radius "
-          <> Decimal.mm r
+          <> Decimal.inUnit unit r
           <> ", or with its centre "
-          <> Decimal.mm (abs' (minus r (radius c)))
+          <> Decimal.inUnit unit (abs' (minus r (radius c)))
           <> (if r > radius c then " nearer, " else " further away, ")
-          <> describe (OnCircle Clockwise c)
+          <> describe unit (OnCircle Clockwise c)
           <> " would touch the "
           <> other
           <> "."
@@ -368,15 +384,19 @@ sideText j = case (value (before j), value (after j)) of
       ]
 
 -- | An error that points at a link and labels its two neighbours.
-linkTitle :: Neighbours -> ReportCode -> Text -> Report
-linkTitle j code title =
+linkTitle :: LengthUnit -> Neighbours -> ReportCode -> Text -> Report
+linkTitle unit j code title =
   (at (link j) code title)
-    { others = [Label r (describe carrier) | Located r carrier <- [before j, after j], r /= link j]
+    { others =
+        [ Label r (describe unit carrier)
+          | Located r carrier <- [before j, after j],
+            r /= link j
+        ]
     }
 
 -- | The descriptions of two neighbours, joined by "and".
-both :: Neighbours -> Text
-both j = describe (value (before j)) <> " and " <> describe (value (after j))
+both :: LengthUnit -> Neighbours -> Text
+both unit j = describe unit (value (before j)) <> " and " <> describe unit (value (after j))
 
 -- Fixes
 
@@ -385,22 +405,22 @@ changes :: Text -> [Fix] -> Fix
 changes what = Fix.proposed . Fix.joined what
 
 -- | Fix that gives fillets the largest radius that fits.
-largestFix :: FittingFillets -> Fix
-largestFix = filletsFix "Write the largest radius that fits here: "
+largestFix :: LengthUnit -> FittingFillets -> Fix
+largestFix unit = filletsFix unit "Write the largest radius that fits here: "
 
 -- | Fix that gives fillets the other sense.
-turnedFix :: FittingFillets -> Fix
-turnedFix = filletsFix "Give the fillet the other sense: "
+turnedFix :: LengthUnit -> FittingFillets -> Fix
+turnedFix unit = filletsFix unit "Give the fillet the other sense: "
 
 -- | Fix that writes fillets. Its title ends with the text of the first one. Radii are rounded down
 -- to three decimals.
-filletsFix :: Text -> FittingFillets -> Fix
-filletsFix what (FittingFillets fillets) =
+filletsFix :: LengthUnit -> Text -> FittingFillets -> Fix
+filletsFix unit what (FittingFillets fillets) =
   changes
     (what <> Text.concat (take 1 [text sense r | (_, sense, r) <- fillets]) <> ".")
     [Fix.exchange "" word (text sense r) | (word, sense, r) <- fillets]
   where
-    text sense r = "fillet " <> (if sense == Clockwise then "" else "-") <> downTo r
+    text sense r = "fillet " <> (if sense == Clockwise then "" else "-") <> downTo unit r
 
 -- | True if the link joins the last element of a closed contour to the first one.
 isClosing :: Neighbours -> Bool
@@ -424,18 +444,27 @@ linkFix what j text =
   Fix.proposed (if isWritten j then Fix.exchange what (link j) text else between what j text)
 
 -- | Fix that chooses the meeting of two elements near a point.
-nearFix :: Neighbours -> Point -> Fix
-nearFix j p = let text = "meet near " <> Vec.toText 4 p in linkFix ("Write " <> text <> ".") j text
+nearFix :: LengthUnit -> Neighbours -> Point -> Fix
+nearFix unit j p =
+  let text = "meet near " <> Vec.toText unit 4 p
+   in linkFix
+        ( "Write " <> text
+            <> "."
+        )
+        j
+        text
 
 -- | Fix that draws a line from the end of the first element to the start of the second one. There
 -- is none if the program writes a link, or if an element has no end.
-joinFixes :: Neighbours -> [Fix]
-joinFixes j =
+joinFixes :: LengthUnit -> Neighbours -> [Fix]
+joinFixes unit j =
   [ Fix.proposed
       ( between
-          ("Join them by a line from " <> Vec.toText 4 p <> " to " <> Vec.toText 4 q <> ".")
+          ( "Join them by a line from " <> Vec.toText unit 4 p <> " to " <> Vec.toText unit 4 q
+              <> "."
+          )
           j
-          ("line(" <> exactPoint p <> ", " <> exactPoint q <> ")")
+          ("line(" <> Vec.toExactText unit p <> ", " <> Vec.toExactText unit q <> ")")
       )
     | not (isWritten j),
       Just p <- [lastPoint (value (before j))],
@@ -453,10 +482,6 @@ joinFixes j =
       OnCircle _ _ -> Nothing
       OnCurve c -> Just (MeasuredPolyarc.start c)
       AtPoint p -> Just p
-
--- | The text of a point with all decimals of its coordinates.
-exactPoint :: Point -> Text
-exactPoint p = "(" <> Decimal.exact (Vec.x p) <> ", " <> Decimal.exact (Vec.y p) <> ")"
 
 -- | Fix that joins two circles by a tangent.
 tangentFixes :: Neighbours -> [Fix]
@@ -492,11 +517,13 @@ senseRegion item (Located at' carrier) = case carrier of
       Just (Region (start item) (start item + Text.length (senseText sense)))
   _ -> Nothing
 
-senseFix :: (Region, Sense, Circle) -> Fix
-senseFix (word, sense, c) =
+senseFix :: LengthUnit -> (Region, Sense, Circle) -> Fix
+senseFix unit (word, sense, c) =
   Fix.proposed
     ( Fix.exchange
-        ("Traverse " <> describe (OnCircle sense c) <> " the other way: write " <> other <> ".")
+        ( "Traverse " <> describe unit (OnCircle sense c) <> " the other way: write " <> other
+            <> "."
+        )
         word
         other
     )
@@ -510,8 +537,8 @@ senseText sense = case sense of
 
 -- | Fixes of links that are tangents beside elements that are no circles: smooth where the elements
 -- touch, nothing where they meet at a corner.
-commonFixes :: NonEmpty Neighbours -> [Fix]
-commonFixes js = case traverse remedy (NonEmpty.toList js) of
+commonFixes :: LengthUnit -> NonEmpty Neighbours -> [Fix]
+commonFixes unit js = case traverse remedy (NonEmpty.toList js) of
   Nothing -> []
   Just edits ->
     let texts = nub (map snd edits)
@@ -534,17 +561,17 @@ commonFixes js = case traverse remedy (NonEmpty.toList js) of
     meeting answer = case answer of
       Intersection.Touching _ -> Just "smooth"
       Intersection.CrossingOnce _ -> Just ""
-      Intersection.Crossing p _ -> Just ("meet near " <> Vec.toText 4 p)
+      Intersection.Crossing p _ -> Just ("meet near " <> Vec.toText unit 4 p)
       Intersection.Apart _ -> Nothing
       Intersection.Same -> Nothing
 
 -- | Fix that writes lines in place of points: each point becomes the line to it from the point
 -- before. There is none if an item of the program gives several points.
-edgesFix :: [(Region, Point)] -> [Fix]
-edgesFix edges =
+edgesFix :: LengthUnit -> [(Region, Point)] -> [Fix]
+edgesFix unit edges =
   [ changes
       "Write the edges as lines from point to point."
-      [Fix.enclosure "" ("line(" <> exactPoint p <> ", ") r ")" | (r, p) <- edges]
+      [Fix.enclosure "" ("line(" <> Vec.toExactText unit p <> ", ") r ")" | (r, p) <- edges]
     | not (null edges),
       length edges == length (nub (map fst edges))
   ]
@@ -557,20 +584,6 @@ isCircle carrier = case carrier of
   OnLine _ -> False
   OnCurve _ -> False
   AtPoint _ -> True
-
--- | The sentence that lists the points in which two neighbours meet. It lists at most 'mostPoints'.
-meetingPoints :: [Point] -> Text
-meetingPoints points =
-  "They meet at "
-    <> Text.intercalate
-      (if length points > mostPoints then ", " else " and at ")
-      (map (Vec.toText 4) (take mostPoints points))
-    <> andMore mostPoints points
-    <> "."
-
--- | The largest number of points that a report lists.
-mostPoints :: Int
-mostPoints = 6
 
 -- | The hint that names the pairs of senses with which the circles have a common tangent.
 tangentHint :: [(Sense, Sense)] -> Text

@@ -17,7 +17,8 @@ module Part.Parameter
 where
 
 import Base.Decimal qualified as Decimal
-import Base.Quantity (Mm (..), Rad, degrees)
+import Base.Quantity (LengthUnit, Mm (..), Rad, degrees)
+import Base.Quantity qualified as Quantity
 import Data.Text (Text)
 
 -- | A quantity that must not be negative. Most of these quantities must not be 0, either.
@@ -83,15 +84,16 @@ name parameter = case parameter of
   SafeHeight -> "the safe height"
   DwellTime -> "a dwell"
 
--- | The text of a quantity with its unit. @x@ is in mm\/min for a feed, in turns per minute for a
--- spindle speed, in seconds for a time, and in mm for a length. A factor has no unit.
-written :: LimitedQuantity -> Double -> Text
-written parameter x = case parameter of
-  Feed -> Decimal.short 4 x <> " mm/min"
+-- | The text of a quantity, in which lengths and feeds have the given unit. @x@ is in mm\/min for a
+-- feed, in turns per minute for a spindle speed, in seconds for a time, and in mm for a length. A factor has
+-- no unit.
+written :: LengthUnit -> LimitedQuantity -> Double -> Text
+written unit parameter x = case parameter of
+  Feed -> Decimal.feedIn unit 4 (Quantity.Feed x)
   SpindleSpeed -> Decimal.short 4 x <> " rpm"
   ScalingFactor -> Decimal.short 6 x
   DwellTime -> Decimal.short 6 x <> " s"
-  _ -> Decimal.mm (Mm x)
+  _ -> Decimal.inUnit unit (Mm x)
 
 -- | The kind of a parameter that must be a whole number.
 data WholeNumber

@@ -40,7 +40,7 @@ module Part.Part
 where
 
 import Base.Name (Name)
-import Base.Quantity (Feed, Mm (..), Seconds)
+import Base.Quantity (Feed, LengthUnit, Mm (..), Seconds)
 import Base.Region (Located, Region)
 import Checked.Syntax
   ( Corners (..),
@@ -70,6 +70,8 @@ data Part = Part
   { name :: Maybe Name,
     title :: Maybe Text,
     machine :: Maybe (Located MachineRef),
+    -- | the unit in which reports, tables and drawings give lengths
+    unit :: LengthUnit,
     -- | the position of the cutter at the start of the tape
     start :: Maybe (Located SpacePoint),
     -- | the tool in the spindle at the start of the tape

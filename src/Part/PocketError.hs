@@ -7,7 +7,7 @@ where
 
 import Base.Decimal qualified as Decimal
 import Base.Name (Name (..))
-import Base.Quantity (Mm (..), times)
+import Base.Quantity (LengthUnit, Mm (..), times)
 import Base.Region (Region)
 import Data.Text (Text)
 import Geometry.Vec (Point)
@@ -33,8 +33,8 @@ data PocketMisfit
   deriving stock (Eq, Show)
 
 -- | The report of a fault.
-toReport :: PocketMisfit -> Report
-toReport misfit = case misfit of
+toReport :: LengthUnit -> PocketMisfit -> Report
+toReport unit misfit = case misfit of
   OpenContour region (Name name) there ->
     (at region "E0356" ("the contour " <> quote name <> " is open and has no inside"))
       { others = [Label there "this contour is open"],
@@ -59,12 +59,12 @@ toReport misfit = case misfit of
       { others = [Label island "the island", Label there "the outline"],
         message =
           [ "They cross or touch at "
-              <> Vec.toText 4 p
+              <> Vec.toText unit 4 p
               <> "; the outline is "
               <> quote outline
               <> "."
           ]
-            <> roomText cutter,
+            <> roomText unit cutter,
         hints =
           [ "Correct the place or the size of "
               <> quote name
@@ -74,7 +74,7 @@ toReport misfit = case misfit of
   Meets region (Name name) (Name other) (first, second) False p cutter ->
     (at region "E0358" ("the island " <> quote name <> " meets the island " <> quote other))
       { others = [Label r "this island" | r <- [first, second]],
-        message = ["They cross or touch at " <> Vec.toText 4 p <> "."] <> roomText cutter,
+        message = ["They cross or touch at " <> Vec.toText unit 4 p <> "."] <> roomText unit cutter,
         hints =
           [ "Correct the place or the size of one of them. Or draw islands that grow together as \
             \one contour."
@@ -84,11 +84,11 @@ toReport misfit = case misfit of
     ( at
         region
         "E0359"
-        ("passes with a step of " <> Decimal.mm stepover <> " leave material between them")
+        ("passes with a step of " <> Decimal.inUnit unit stepover <> " leave material between them")
     )
       { message =
           [ "The cutter has a diameter of "
-              <> Decimal.mm diameter
+              <> Decimal.inUnit unit diameter
               <> "; a pass clears no more than that."
           ],
         fixes =
@@ -98,13 +98,13 @@ toReport misfit = case misfit of
                   region
                   half
               )
-            | let half = Decimal.mm (times 0.5 diameter)
+            | let half = Decimal.inUnit unit (times 0.5 diameter)
           ]
       }
 
 -- | The sentence about the room that a cutter of the given diameter needs.
-roomText :: Maybe Mm -> [Text]
-roomText cutter =
-  [ "To pass between them, the cutter needs its diameter of " <> Decimal.mm d <> "."
+roomText :: LengthUnit -> Maybe Mm -> [Text]
+roomText unit cutter =
+  [ "To pass between them, the cutter needs its diameter of " <> Decimal.inUnit unit d <> "."
     | Just d <- [cutter]
   ]

@@ -37,7 +37,9 @@ import Surface.Token (Token (..), Token_ (..))
 -- list is empty if the construction has only one answer, or cannot be evaluated.
 candidates :: Snapshot -> Cursor -> [(Text, Text)]
 candidates now cursor =
-  [ (Vec.toText 4 p, "answer " <> Text.pack (show n) <> " of " <> Text.pack (show (length points)))
+  [ ( Vec.toText (Snapshot.unit now) 4 p,
+      "answer " <> Text.pack (show n) <> " of " <> Text.pack (show (length points))
+    )
     | (n, p) <- zip [1 :: Int ..] points
   ]
   where

@@ -7,6 +7,7 @@ module Query.CodeLens
 where
 
 import Base.Decimal qualified as Decimal
+import Base.Quantity (LengthUnit)
 import Base.Region (Located (..), Region)
 import Data.Maybe (listToMaybe)
 import Data.Text (Text)
@@ -30,7 +31,9 @@ codeLenses now tape =
     | not (null (wholeFacts now tape)),
       Located _ (Surface.Part (Located at _) _) <- take 1 ownStatements
   ]
-    <> [CodeLens {place = statement s, title = joined (workFacts s)} | s <- summaries]
+    <> [ CodeLens {place = statement s, title = joined (workFacts (Snapshot.unit now) s)}
+         | s <- summaries
+       ]
   where
     ownStatements = Surface.statements (Snapshot.program now)
     summaries = case Snapshot.machines now of
@@ -46,10 +49,10 @@ wholeFacts now tape = case listToMaybe (Snapshot.machines now) of
       <> [Decimal.fixed 2 x <> " m of tape" | Just t <- [tape], Just x <- [metres t]]
       <> [if isProven t then "proven" else "not proven" | Just t <- [tape]]
 
-workFacts :: StatementSummary -> [Text]
-workFacts s =
+workFacts :: LengthUnit -> StatementSummary -> [Text]
+workFacts unit s =
   [counted (passes s) "pass" | passes s > 0]
-    <> [Decimal.mm (path s), Measurement.time (duration s)]
+    <> [Decimal.inUnit unit (path s), Measurement.time (duration s)]
     <> [counted n "frame" | Just n <- [ownFrames s]]
 
 -- | A count with its noun.

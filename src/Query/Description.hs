@@ -7,7 +7,7 @@ module Query.Description
 where
 
 import Base.Decimal qualified as Decimal
-import Base.Quantity (Feed (..), Mm (..))
+import Base.Quantity (Feed (..), LengthUnit, Mm (..))
 import Base.Region (Located (Located), Region (Region))
 import Base.Region qualified as Region
 import Base.Result (Result (..))
@@ -92,7 +92,9 @@ named now before at = shown <$> Name.hover now before at
           title = Name.name h,
           sentence = Name.meaning h,
           values = Name.values h,
-          facts = several (Name.values h) <> maybe [] Measurement.facts (contourAt h),
+          facts =
+            several (Name.values h)
+              <> maybe [] (Measurement.facts (Snapshot.unit now)) (contourAt h),
           entry = if Name.isBuiltIn h then Manual.function (Name.name h) else Nothing
         }
     several vs = case vs of
@@ -142,7 +144,7 @@ linkOf now token w
           title = Text.unwords (concatMap Text.words (Region.linesIn (Snapshot.source now) at)),
           sentence = "",
           values = [],
-          facts = Measurement.segmentFacts segment' <> largest link,
+          facts = Measurement.segmentFacts (Snapshot.unit now) segment' <> largest link,
           entry = Manual.word w
         }
   where
@@ -154,7 +156,9 @@ linkOf now token w
       ]
     largest link = case link of
       Surface.Fillet e ->
-        [("largest radius here", Decimal.mm r) | Just r <- [largestFillet now (Region.region e)]]
+        [ ("largest radius here", Decimal.inUnit (Snapshot.unit now) r)
+          | Just r <- [largestFillet now (Region.region e)]
+        ]
       _ -> []
 
 -- | The largest radius of the fillet whose radius is written in this region. The compiler finds it
@@ -191,7 +195,7 @@ machiningOf now token w = do
         title = w,
         sentence = "",
         values = [],
-        facts = workFacts work,
+        facts = workFacts (Snapshot.unit now) work,
         entry = Manual.word w
       }
   where
@@ -199,10 +203,10 @@ machiningOf now token w = do
       m : _ -> Machining.work m
       [] -> maybe [] (Machining.statements Nothing) (Snapshot.path now)
 
-workFacts :: StatementSummary -> [(Text, Text)]
-workFacts s =
+workFacts :: LengthUnit -> StatementSummary -> [(Text, Text)]
+workFacts unit s =
   [("passes", Decimal.whole (passes s)) | passes s > 0]
-    <> [("length", Decimal.mm (path s)), ("time", Measurement.time (duration s))]
+    <> [("length", Decimal.inUnit unit (path s)), ("time", Measurement.time (duration s))]
     <> [("frames", Decimal.whole n) | Just n <- [ownFrames s]]
 
 -- | The description of a machine whose name is at the token.

@@ -22,7 +22,6 @@ import Part.Part qualified as Part
 import Query.Mention qualified as Mention
 import Query.Snapshot (Snapshot)
 import Query.Snapshot qualified as Snapshot
-import Surface.FileUnit qualified as FileUnit
 import Surface.Syntax
 import Surface.SyntaxWalk qualified as SyntaxWalk
 
@@ -47,10 +46,16 @@ inlayHints now (Region from to) =
     units s =
       [ InlayHint {offset = end (region e), text = unit, isType = False}
         | (e, t) <- BareNumber.bareNumbers typeAt s,
-          Just unit <- [unitOf (FileUnit.ofProgram (Snapshot.program now)) t]
+          Just unit <- [unitOf (Snapshot.unit now) t]
       ]
     radii =
-      [ InlayHint {offset = end (region e), text = "radius " <> Decimal.mm r, isType = False}
+      [ InlayHint
+          { offset = end (region e),
+            text =
+              "radius "
+                <> Decimal.inUnit (Snapshot.unit now) r,
+            isType = False
+          }
         | Located _ (Element (Just _) e _ _) <- concatMap SyntaxWalk.itemsOf inner,
           Just r <- [Map.lookup (region e) walked]
       ]

@@ -244,12 +244,14 @@ units :: [(Text, ManualEntry)]
 units =
   under
     "language.md#units"
-    [ ("mm", "Is the millimetre; a length without a unit is in mm."),
+    [ ("mm", "Is the millimetre; without units in, a length without a unit is in mm."),
       ("cm", "Is the centimetre, 10 mm."),
       ("m", "Is the metre, 1000 mm."),
       ("deg", "Is the degree; an angle without a unit is in deg."),
       ("rad", "Is the radian, 57.296 deg."),
-      ("mm/min", "Is the millimetre per minute; a feed without a unit is in mm/min."),
+      ( "mm/min",
+        "Is the millimetre per minute; without units in, a feed without a unit is in mm/min."
+      ),
       ("m/min", "Is the metre per minute, 1000 mm/min."),
       ("in/min", "Is the inch per minute, 25.4 mm/min."),
       ("rpm", "Is the turn per minute.")

@@ -7,7 +7,7 @@ module Query.Measurement
 where
 
 import Base.Decimal qualified as Decimal
-import Base.Quantity (Mm (..), Rad (..), Seconds (..), times)
+import Base.Quantity (LengthUnit, Mm (..), Rad (..), Seconds (..), times)
 import Data.List.NonEmpty (NonEmpty (..))
 import Data.List.NonEmpty qualified as NonEmpty
 import Data.Text (Text)
@@ -24,11 +24,16 @@ import Part.Part qualified as Part
 import Part.Tolerance qualified as Tolerance
 
 -- | The measures of a contour: length, area, bounding box, and the largest cutters.
-facts :: Contour -> [(Text, Text)]
-facts contour =
-  ("length", Decimal.mm (Polyarc.length polyarc)) :
-  [("area", Decimal.short 2 (abs area) <> " mm²") | isClosed]
-    <> [("box", boxText polyarc)]
+facts :: LengthUnit -> Contour -> [(Text, Text)]
+facts unit contour =
+  ("length", Decimal.inUnit unit (Polyarc.length polyarc)) :
+  [ ( "area",
+      Decimal.shortAreaIn unit 2 (abs area) <> " " <> Decimal.unitText unit
+        <> "²"
+    )
+    | isClosed
+  ]
+    <> [("box", boxText unit polyarc)]
     <> concatMap ofSide sides
   where
     polyarc = Part.polyarcOf contour
@@ -41,8 +46,8 @@ facts contour =
     ofSide (side, sign) = case tightest sign polyarc of
       NoHollow -> [("cutter " <> side, "any")]
       Hollow r ->
-        [ ("tightest radius " <> side, Decimal.mm r),
-          ("largest cutter " <> side, "diameter " <> Decimal.mm (times 2 r))
+        [ ("tightest radius " <> side, Decimal.inUnit unit r),
+          ("largest cutter " <> side, "diameter " <> Decimal.inUnit unit (times 2 r))
         ]
       SharpCorner -> [("cutter " <> side, "leaves rest material in a sharp corner")]
 
@@ -65,15 +70,17 @@ tightest sign polyarc
     Rad smooth = Tolerance.smoothTurn
 
 -- | The bounding box of a polyarc: its size, and its lower left and upper right corner.
-boxText :: Polyarc.Polyarc -> Text
-boxText polyarc =
-  Decimal.short 3 (right - left)
+boxText :: LengthUnit -> Polyarc.Polyarc -> Text
+boxText unit polyarc =
+  Decimal.shortIn unit 3 (Mm (right - left))
     <> " × "
-    <> Decimal.short 3 (top - bottom)
-    <> " mm, from "
-    <> Vec.toText 3 (Vec.point left bottom)
+    <> Decimal.shortIn unit 3 (Mm (top - bottom))
+    <> " "
+    <> Decimal.unitText unit
+    <> ", from "
+    <> Vec.toText unit 3 (Vec.point left bottom)
     <> " to "
-    <> Vec.toText 3 (Vec.point right top)
+    <> Vec.toText unit 3 (Vec.point right top)
   where
     BoundingBox left bottom right top = foldr BoundingBox.union box boxes
     box :| boxes = fmap exactBox (Polyarc.segments polyarc)
@@ -94,17 +101,17 @@ exactBox s = BoundingBox.ofPoints (start s) (end s : extremes)
               ]
 
 -- | The measures of a segment: ends and length, and for an arc centre, radius and angle.
-segmentFacts :: Segment -> [(Text, Text)]
-segmentFacts s =
-  [ ("from", Vec.toText 4 (start s)),
-    ("to", Vec.toText 4 (end s)),
-    ("length", Decimal.mm (Segment.length s))
+segmentFacts :: LengthUnit -> Segment -> [(Text, Text)]
+segmentFacts unit s =
+  [ ("from", Vec.toText unit 4 (start s)),
+    ("to", Vec.toText unit 4 (end s)),
+    ("length", Decimal.inUnit unit (Segment.length s))
   ]
     <> case s of
       Straight _ _ -> []
       Arc {centre, sweep = Rad a} ->
-        [ ("centre", Vec.toText 4 centre),
-          ("radius", Decimal.mm (Segment.radius centre (start s))),
+        [ ("centre", Vec.toText unit 4 centre),
+          ("radius", Decimal.inUnit unit (Segment.radius centre (start s))),
           ("angle", Decimal.short 3 (a * 180 / pi) <> " deg")
         ]
 

@@ -9,6 +9,7 @@ module Query.Snapshot
     inStages,
     ofDescription,
     force,
+    unit,
     isGood,
     hasFacts,
     hasFrames,
@@ -19,6 +20,7 @@ module Query.Snapshot
   )
 where
 
+import Base.Quantity (LengthUnit)
 import Base.Region (Region, Source)
 import Base.Region qualified as Region
 import Base.Result (Result (..), mapErrors)
@@ -179,6 +181,10 @@ force most Snapshot {reports, facts} =
   foldr (seq . Report.force) () (List.take most reports)
     `seq` length (Mention.mentions facts)
     `seq` ()
+
+-- | The unit in which results of the program are shown.
+unit :: Snapshot -> LengthUnit
+unit = FileUnit.ofProgram . program
 
 -- | True if the program has no errors. It may have warnings.
 isGood :: Snapshot -> Bool

@@ -14,7 +14,7 @@ module Toolpath.CompensationReport
 where
 
 import Base.Decimal qualified as Decimal
-import Base.Quantity (Mm (..), Rad (..), times)
+import Base.Quantity (LengthUnit, Mm (..), Rad (..), times)
 import Base.Region (Region)
 import Data.Text (Text)
 import Geometry.Vec (Point)
@@ -51,8 +51,8 @@ unsupported region what =
 
 -- | Report of an approach or retract that is too short, or is missing. The arguments are the fields
 -- of 'Toolpath.Error.ShortForControl'.
-shortMove :: Region -> Region -> Bool -> Mm -> Mm -> Report
-shortMove region asked isIn length' radius' =
+shortMove :: LengthUnit -> Region -> Region -> Bool -> Mm -> Mm -> Report
+shortMove unit region asked isIn length' radius' =
   ( at
       region
       "E0417"
@@ -61,9 +61,9 @@ shortMove region asked isIn length' radius' =
             "the straight move "
               <> word
               <> " the contour is "
-              <> Decimal.mm length'
+              <> Decimal.inUnit unit length'
               <> " long, but a control needs one longer than the cutter's radius, "
-              <> Decimal.mm radius'
+              <> Decimal.inUnit unit radius'
           else
             "there is no straight move "
               <> word
@@ -95,13 +95,13 @@ shortMove region asked isIn length' radius' =
 
 -- | Report of an approach from a direction that a control does not accept. The arguments are the
 -- fields of 'Toolpath.Error.WrongWayForControl'.
-wrongWay :: Region -> Region -> Point -> Report
-wrongWay region asked p =
+wrongWay :: LengthUnit -> Region -> Region -> Point -> Report
+wrongWay unit region asked p =
   (at region "E0418" "a control cannot make this move onto the contour")
     { others = [Label asked "asked here"],
       message =
         [ "It ends at "
-            <> Vec.toText 3 p
+            <> Vec.toText unit 3 p
             <> ", and comes there out of the part, against the direction of travel, or nearly \
                \along an arc with a thin cutter."
         ],
@@ -114,22 +114,22 @@ wrongWay region asked p =
 
 -- | Report of a concave arc that a control cannot follow. The arguments are the fields of
 -- 'Toolpath.Error.TightForControl'.
-tightArc :: Region -> Region -> Maybe Element -> Mm -> Mm -> Report
-tightArc region asked element old radius' =
+tightArc :: LengthUnit -> Region -> Region -> Maybe Element -> Mm -> Mm -> Report
+tightArc unit region asked element old radius' =
   ( at
       (maybe region origin element)
       "E0419"
       ( "a control cannot keep a cutter of diameter "
-          <> Decimal.mm (times 2 radius')
+          <> Decimal.inUnit unit (times 2 radius')
           <> " in a concave radius of "
-          <> Decimal.mm old
+          <> Decimal.inUnit unit old
       )
   )
-    { label = maybe "the lead" shape element,
+    { label = maybe "the lead" (shape unit) element,
       others = [Label asked "asked here"],
       message =
         [ "The radius has to be larger than the cutter's by "
-            <> Decimal.mm Tolerance.controlArc
+            <> Decimal.inUnit unit Tolerance.controlArc
             <> "."
         ],
       fixes = [ErrorFix.compensationFix asked],
@@ -138,25 +138,25 @@ tightArc region asked element old radius' =
 
 -- | Report of an element that is too short. The arguments are the fields of
 -- 'Toolpath.Error.TinyForControl'.
-tinyElement :: Region -> Region -> Maybe Element -> Mm -> Mm -> Report
-tinyElement region asked element length' needed =
+tinyElement :: LengthUnit -> Region -> Region -> Maybe Element -> Mm -> Mm -> Report
+tinyElement unit region asked element length' needed =
   ( at
       (maybe region origin element)
       "E0419"
-      ("an element of " <> Decimal.mm length' <> " is too short for a control to follow")
+      ("an element of " <> Decimal.inUnit unit length' <> " is too short for a control to follow")
   )
-    { label = maybe "the lead" shape element,
+    { label = maybe "the lead" (shape unit) element,
       others = [Label asked "asked here"],
       message =
         [ if needed > Tolerance.controlLength
             then
               "Rounded to pulses it could seem to turn aside, and about the arc behind it the \
               \cutter has little room. Before that arc a line has to be "
-                <> Decimal.mm needed
+                <> Decimal.inUnit unit needed
                 <> " long, an arc as large in radius."
             else
               "Rounded to pulses it could seem to turn into the part. Elements have to be "
-                <> Decimal.mm Tolerance.controlLength
+                <> Decimal.inUnit unit Tolerance.controlLength
                 <> " long."
         ],
       fixes = [ErrorFix.compensationFix asked],
@@ -171,15 +171,17 @@ tinyElement region asked element length' needed =
 
 -- | Report of a slight corner that a control ignores. The arguments are the fields of
 -- 'Toolpath.Error.SlightForControl'.
-slightCorner :: Region -> Element -> Element -> Rad -> Mm -> Report
-slightCorner asked first second (Rad turned) deep =
+slightCorner :: LengthUnit -> Region -> Element -> Element -> Rad -> Mm -> Report
+slightCorner unit asked first second (Rad turned) deep =
   ( at
       (origin first)
       "E0419"
-      ("a control would cut " <> Decimal.mm deep <> " off the slight corner behind this element")
+      ( "a control would cut " <> Decimal.inUnit unit deep
+          <> " off the slight corner behind this element"
+      )
   )
-    { label = shape first,
-      others = secondLabel first second <> [Label asked "asked here"],
+    { label = shape unit first,
+      others = secondLabel unit first second <> [Label asked "asked here"],
       message =
         [ "It turns by "
             <> inDegrees (abs turned)
@@ -196,11 +198,11 @@ slightCorner asked first second (Rad turned) deep =
 
 -- | Report of a corner at which the contour almost reverses. The arguments are the fields of
 -- 'Toolpath.Error.BackForControl'.
-sharpTip :: Region -> Element -> Element -> Rad -> Report
-sharpTip asked first second (Rad turned) =
+sharpTip :: LengthUnit -> Region -> Element -> Element -> Rad -> Report
+sharpTip unit asked first second (Rad turned) =
   (at (origin first) "E0419" "a control cannot follow the corner behind this element")
-    { label = shape first,
-      others = secondLabel first second <> [Label asked "asked here"],
+    { label = shape unit first,
+      others = secondLabel unit first second <> [Label asked "asked here"],
       message =
         [ "It turns by "
             <> inDegrees (abs turned)

@@ -18,7 +18,7 @@ where
 
 import Base.Decimal qualified as Decimal
 import Base.Name (Name (..))
-import Base.Quantity (Mm (..), Rad (..), minus, plus, times)
+import Base.Quantity (LengthUnit, Mm (..), Rad (..), minus, plus, times)
 import Base.Region (Located (..), Region)
 import Data.Maybe (isJust)
 import Data.Text (Text)
@@ -164,8 +164,8 @@ data Intrusion
   deriving stock (Eq, Show)
 
 -- | The report of an error.
-toReport :: Error -> Report
-toReport err = case err of
+toReport :: LengthUnit -> Error -> Report
+toReport unit err = case err of
   SideOfOpen region side (Name name) contour ->
     (at region "E0401" ("the open contour ‘" <> name <> "’ has no " <> sideWord side))
       { others = [Label contour "this contour is open"],
@@ -180,71 +180,73 @@ toReport err = case err of
     ( at
         (origin element)
         "E0402"
-        ( cutter tool
+        ( cutter unit tool
             <> " does not fit into a concave radius of "
-            <> Decimal.distinctMm (plus (radius tool) (leaves tool)) old
+            <> Decimal.distinctIn unit (plus (radius tool) (leaves tool)) old
         )
     )
-      { label = shape element,
+      { label = shape unit element,
         others = [Label region (workVerb tool <> " here") | region /= origin element],
         fixes =
-          ErrorFix.sizeFixes tool largest
+          ErrorFix.sizeFixes unit tool largest
             <> [ ErrorFix.restFix (places tool)
                  | minus (plus (radius tool) (leaves tool)) old > Mm 0.001
                ],
-        hints = [largestFit tool largest | null (ErrorFix.sizeFixes tool largest)]
+        hints = [largestFit unit tool largest | null (ErrorFix.sizeFixes unit tool largest)]
       }
   InnerCorner region tool first second p largest mayRound ->
     ( at
         (origin first)
         "E0403"
         ( ( if any (>= Tolerance.smallestCutter) largest
-              then cutter tool <> " does not reach"
+              then cutter unit tool <> " does not reach"
               else "no round cutter reaches"
           )
             <> " into this inner corner"
         )
     )
-      { label = shape first,
+      { label = shape unit first,
         others =
-          secondLabel first second
-            <> [Label region (workVerb tool <> " here with " <> cutter tool)],
-        message = ["The corner is at " <> Vec.toText 3 p <> "."] <> narrowText tool first second,
+          secondLabel unit first second
+            <> [Label region (workVerb tool <> " here with " <> cutter unit tool)],
+        message =
+          ["The corner is at " <> Vec.toText unit 3 p <> "."]
+            <> narrowText unit tool first second,
         fixes =
-          (if mayRound then ErrorFix.filletFixes tool first second else [])
-            <> ErrorFix.sizeFixes tool largest
+          (if mayRound then ErrorFix.filletFixes unit tool first second else [])
+            <> ErrorFix.sizeFixes unit tool largest
             <> [ErrorFix.restFix (places tool)],
         hints =
           [ "Or write the edges as lines, line(p, q), and round the corner: fillet and a radius."
             | not mayRound
           ]
             <> [ "Or take a smaller cutter, and round the corner with a fillet of its radius."
-                 | mayRound && null (ErrorFix.filletFixes tool first second)
+                 | mayRound && null (ErrorFix.filletFixes unit tool first second)
                ]
       }
   Collision region tool first second p largest ->
-    collisionReport region tool (first, second) p largest
+    collisionReport unit region tool (first, second) p largest
   CutsPart region move element depth intrusion p beginning ->
-    (at region "E0405" ("this move " <> intruding intrusion depth))
+    (at region "E0405" ("this move " <> intruding unit intrusion depth))
       { label = "the move to here",
-        others = [Label (origin element) (shape element) | origin element /= region],
+        others = [Label (origin element) (shape unit element) | origin element /= region],
         message =
           [ if Vec.isNear (Segment.start move) (Segment.end move)
-              then "It goes up or down at " <> Vec.toText 3 p <> "."
+              then "It goes up or down at " <> Vec.toText unit 3 p <> "."
               else
                 "It goes from "
-                  <> Vec.toText 3 (Segment.start move)
+                  <> Vec.toText unit 3 (Segment.start move)
                   <> " to "
-                  <> Vec.toText 3 (Segment.end move)
+                  <> Vec.toText unit 3 (Segment.end move)
                   <> "; the trouble is worst with the cutter's centre at "
-                  <> Vec.toText 3 p
+                  <> Vec.toText unit 3 p
                   <> "."
           ]
-            <> [ "The contour begins at " <> Vec.toText 3 (beginsAt b) <> "."
+            <> [ "The contour begins at " <> Vec.toText unit 3 (beginsAt b) <> "."
                  | Just b <- [beginning]
                ],
         fixes =
-          [ ErrorFix.startFix milling (Segment.start move)
+          [ ErrorFix.startFix unit milling (Segment.start move)
             | Just ContourBeginning {mayMove = Just milling} <- [beginning]
           ],
         hints =
@@ -252,35 +254,44 @@ toReport err = case err of
             \coordinate is a height."
           ]
       }
-  WrongLink fault -> LinkingMoveError.toReport fault
+  WrongLink fault -> LinkingMoveError.toReport unit fault
   HoleCuts region p also element deep drill size ->
     ( at
         region
         "E0413"
-        ("the hole at " <> Vec.toText 3 p <> " cuts into a contour by " <> Decimal.mm deep)
+        ( "the hole at " <> Vec.toText unit 3 p <> " cuts into a contour by "
+            <> Decimal.inUnit unit deep
+        )
     )
-      { others = [Label (origin element) ("it cuts " <> shape element) | origin element /= region],
+      { others =
+          [ Label
+              (origin element)
+              ( "it cuts "
+                  <> shape unit element
+              )
+            | origin element /= region
+          ],
         message =
-          ["The drill has a diameter of " <> Decimal.mm (times 2 drill) <> "."]
+          ["The drill has a diameter of " <> Decimal.inUnit unit (times 2 drill) <> "."]
             <> [ "So " <> (case also of [_] -> "does the hole at "; _ -> "do the holes at ")
-                   <> Text.intercalate " and " (map (Vec.toText 3) (take 3 also))
+                   <> Text.intercalate " and " (map (Vec.toText unit 3) (take 3 also))
                    <> andMore 3 also
                    <> "."
                  | not (null also)
                ],
-        fixes = ErrorFix.drillFixes size (minus drill deep),
+        fixes = ErrorFix.drillFixes unit size (minus drill deep),
         hints =
           ["Correct the place of the hole or the contour, or change the tool before drilling."]
       }
   MillsItself region side element depth ends ->
     (at side "E0406" "on this contour the cutter cuts away what is to stand on one side of it")
       { others =
-          [ Label (origin element) ("it cuts " <> shape element),
+          [ Label (origin element) ("it cuts " <> shape unit element),
             Label region "milled here"
           ],
         message =
           [ "With on, the centre of the cutter runs along the contour, so it cuts "
-              <> Decimal.mm depth
+              <> Decimal.inUnit unit depth
               <> " to both sides. Another statement mills the same contour on one side."
           ],
         fixes =
@@ -289,21 +300,27 @@ toReport err = case err of
             (if ends == Closed then [Inside, Outside] else [LeftSide, RightSide])
       }
   MillsAnother region milled element depth p ->
-    (at region "E0406" ("milling this contour cuts into another one by " <> Decimal.mm depth))
+    ( at
+        region
+        "E0406"
+        ( "milling this contour cuts into another one by "
+            <> Decimal.inUnit unit depth
+        )
+    )
       { label = "milled here",
         others =
           [Label milled "along this element" | milled /= region]
-            <> [Label (origin element) ("it cuts " <> shape element)],
-        message = ["The cutter's centre is then at " <> Vec.toText 3 p <> "."],
+            <> [Label (origin element) ("it cuts " <> shape unit element)],
+        message = ["The cutter's centre is then at " <> Vec.toText unit 3 p <> "."],
         hints = ["Use a smaller cutter, or check the sides and the distance of the contours."]
       }
   CutsAir region z approach ->
     ( at
         region
         "E0407"
-        ("the cutter is " <> Decimal.mm z <> " above the part here and cuts nothing")
+        ("the cutter is " <> Decimal.inUnit unit z <> " above the part here and cuts nothing")
     )
-      { fixes = [ErrorFix.heightFix place p | Just (Located place p) <- [approach]],
+      { fixes = [ErrorFix.heightFix unit place p | Just (Located place p) <- [approach]],
         hints =
           [ "Write how deep to go, for example: depth 5 mm. Or begin at the height 0, if the \
             \height is set by hand."
@@ -340,7 +357,7 @@ toReport err = case err of
       }
   BelowAxis region element ->
     (at (origin element) "E0412" "a turned profile cannot go below the axis of the spindle, y = 0")
-      { label = shape element,
+      { label = shape unit element,
         others = [Label region "turned here"],
         hints = ["x runs along the spindle, y is the radius: half the diameter."]
       }
@@ -373,33 +390,46 @@ toReport err = case err of
         "E0415"
         ("the bevel jumps from " <> inDegrees a <> " to " <> inDegrees b <> " behind this element")
     )
-      { label = shape first,
-        others = secondLabel first second <> [Label region "milled here with a blade"],
+      { label = shape unit first,
+        others = secondLabel unit first second <> [Label region "milled here with a blade"],
         message = ["A blade swivels while it moves; it cannot jump."],
         hints = ["Put an element without a bevel between them: along it the blade turns evenly."]
       }
   NotForControl region what -> CompensationReport.unsupported region what
   ShortForControl region asked isIn length' radius' ->
-    CompensationReport.shortMove region asked isIn length' radius'
-  WrongWayForControl region asked p -> CompensationReport.wrongWay region asked p
+    CompensationReport.shortMove unit region asked isIn length' radius'
+  WrongWayForControl region asked p -> CompensationReport.wrongWay unit region asked p
   TightForControl region asked element old radius' ->
-    CompensationReport.tightArc region asked element old radius'
+    CompensationReport.tightArc unit region asked element old radius'
   TinyForControl region asked element length' needed ->
-    CompensationReport.tinyElement region asked element length' needed
+    CompensationReport.tinyElement unit region asked element length' needed
   SlightForControl asked first second turned deep ->
-    CompensationReport.slightCorner asked first second turned deep
-  BackForControl asked first second turned -> CompensationReport.sharpTip asked first second turned
+    CompensationReport.slightCorner unit asked first second turned deep
+  BackForControl asked first second turned ->
+    CompensationReport.sharpTip unit asked first second turned
   NoPathInPocket region outline left ->
-    noRoom region "no path clears this pocket" "its outline is" "in" outline left
+    noRoom
+      region
+      "no path clears this pocket"
+      "its outline is"
+      "in"
+      outline
+      (leaving unit left)
   NoPathAlong region along left ->
-    noRoom region "no path goes along this contour" "it is" "beside" along left
+    noRoom
+      region
+      "no path goes along this contour"
+      "it is"
+      "beside"
+      along
+      (leaving unit left)
   HasToRise region p q ->
     (at region "E0421" "the cutter has to be lifted in this pocket, and it has no depth")
       { message =
           [ "On the straight line from "
-              <> Vec.toText 3 p
+              <> Vec.toText unit 3 p
               <> " to "
-              <> Vec.toText 3 q
+              <> Vec.toText unit 3 q
               <> " a wall is in the way."
           ],
         hints =
@@ -414,7 +444,7 @@ toReport err = case err of
         "E0422"
         "a pocket would cut away what is to be left on this element of its walls"
     )
-      { label = shape element,
+      { label = shape unit element,
         others = [Label region "cleared here" | region /= origin element],
         hints =
           ["Leave so much at all walls, by allowance in the pocket. Then mill the contour inside."]
@@ -434,7 +464,7 @@ toReport err = case err of
 -- | The report that there is no room in a pocket, or beside a contour, for a pass with the
 -- allowance @left@. The label of the contour is @called@ followed by the contour's name. @side@ is
 -- the preposition, "in" or "beside".
-noRoom :: Region -> Text -> Text -> Text -> Contour -> Mm -> Report
+noRoom :: Region -> Text -> Text -> Text -> Contour -> Maybe Text -> Report
 noRoom region title called side contour left =
   (at region "E0420" title)
     { others = [Label there (called <> " ‘" <> name <> "’")],
@@ -442,13 +472,17 @@ noRoom region title called side contour left =
         [ "Nowhere "
             <> side
             <> " it the cutter has room"
-            <> (if left > Mm 0 then " for a pass that leaves " <> Decimal.mm left else "")
+            <> maybe "" (" for a pass that leaves " <>) left
             <> "."
         ],
-      hints = ["Take a smaller cutter" <> (if left > Mm 0 then ", or leave less." else ".")]
+      hints = ["Take a smaller cutter" <> maybe "." (const ", or leave less.") left]
     }
   where
     Located there (Name name) = contourName contour
+
+-- | The text of what a pass leaves; 'Nothing' if it leaves nothing.
+leaving :: LengthUnit -> Mm -> Maybe Text
+leaving unit left = if left > Mm 0 then Just (Decimal.inUnit unit left) else Nothing
 
 -- | The text for a side.
 sideWord :: Side -> Text
@@ -460,35 +494,35 @@ sideWord side = case side of
   On -> "centre line"
 
 -- | The text for an intrusion of this depth.
-intruding :: Intrusion -> Mm -> Text
-intruding intrusion depth = case intrusion of
-  CutsContour -> "cuts into the part by " <> Decimal.mm depth
+intruding :: LengthUnit -> Intrusion -> Mm -> Text
+intruding unit intrusion depth = case intrusion of
+  CutsContour -> "cuts into the part by " <> Decimal.inUnit unit depth
   Crossing -> "crosses the contour of the part"
-  CutsAllowance -> "takes " <> Decimal.mm depth <> " of what is to be left on the contour"
+  CutsAllowance -> "takes " <> Decimal.inUnit unit depth <> " of what is to be left on the contour"
 
 -- | The report of 'Collision'.
-collisionReport :: Region -> Tool -> (Element, Element) -> Point -> Maybe Mm -> Report
-collisionReport region tool (first, second) p largest =
+collisionReport :: LengthUnit -> Region -> Tool -> (Element, Element) -> Point -> Maybe Mm -> Report
+collisionReport unit region tool (first, second) p largest =
   (at (origin first) "E0404" title)
-    { label = shape first,
+    { label = shape unit first,
       others =
-        secondLabel first second
+        secondLabel unit first second
           <> [Label region (workVerb tool <> " here") | region /= origin first],
       message =
         [ "On its way along the first one, with its centre at "
-            <> Vec.toText 3 p
+            <> Vec.toText unit 3 p
             <> ", the cutter would cut the second one."
           | not (isInside (segment first) (segment second))
         ],
       fixes =
         if isSlight
-          then ErrorFix.sizeFixes tool largest <> [ErrorFix.restFix (places tool)]
+          then ErrorFix.sizeFixes unit tool largest <> [ErrorFix.restFix (places tool)]
           else [],
       hints =
         if isSlight
           then ["Or correct the place or the size of one of the two."]
           else
-            ["Correct the place or the size of one of the two. " <> largestFit tool largest]
+            ["Correct the place or the size of one of the two. " <> largestFit unit tool largest]
               <> [ "Or let the material that the cutter does not reach stay: rest allowed."
                    | isJust largest
                  ]
@@ -496,9 +530,10 @@ collisionReport region tool (first, second) p largest =
   where
     title
       | isInside (segment first) (segment second) =
-        shape first <> " and " <> shape second <> " lie one inside the other"
+        shape unit first <> " and " <> shape unit second <> " lie one inside the other"
       | otherwise =
-        cutter tool <> " does not fit between " <> shape first <> " and " <> shape second
+        cutter unit tool <> " does not fit between " <> shape unit first <> " and "
+          <> shape unit second
     -- A much smaller cutter is hardly meant: then a number is wrong.
     isSlight = any (> times 0.5 (radius tool)) largest
     isInside a b = case (a, b) of
@@ -509,12 +544,12 @@ collisionReport region tool (first, second) p largest =
 
 -- | The sentence that an element is too short for a fillet that the tool could follow. Empty if it
 -- is long enough.
-narrowText :: Tool -> Element -> Element -> [Text]
-narrowText tool first second =
+narrowText :: LengthUnit -> Tool -> Element -> Element -> [Text]
+narrowText unit tool first second =
   [ "No fillet that this tool could follow fits here: "
-      <> shape narrow
+      <> shape unit narrow
       <> " is only "
-      <> Decimal.mm (Segment.length (segment narrow))
+      <> Decimal.inUnit unit (Segment.length (segment narrow))
       <> " long."
     | narrow : _ <- [filter isNarrow [first, second]]
   ]

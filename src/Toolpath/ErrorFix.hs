@@ -16,7 +16,7 @@ module Toolpath.ErrorFix
 where
 
 import Base.Decimal qualified as Decimal
-import Base.Quantity (Mm (..), Rad (..), plus, times)
+import Base.Quantity (LengthUnit, Mm (..), Rad (..), plus, times)
 import Base.Region (Region)
 import Base.Region qualified as Region
 import Data.Text (Text)
@@ -31,12 +31,12 @@ import Toolpath.Tolerance qualified as Tolerance
 import Toolpath.WarningReport (Tool (..), fittingSize)
 
 -- | Fix that writes the size of the largest tool that fits. @largest@ is its radius.
-sizeFixes :: Tool -> Maybe Mm -> [Fix]
-sizeFixes tool largest =
+sizeFixes :: LengthUnit -> Tool -> Maybe Mm -> [Fix]
+sizeFixes unit tool largest =
   [ Fix.proposed (Fix.exchange (largestText <> size <> ".") place size)
     | Just r <- [largest],
       r >= Tolerance.smallestCutter,
-      let size = fittingSize tool r,
+      let size = fittingSize unit tool r,
       Just place <- [toolSize (places tool)]
   ]
   where
@@ -55,8 +55,8 @@ setting title text milling =
 
 -- | Fix that rounds the corner between two lines with a fillet of the tool's radius. There is none
 -- if the fillet takes more than half of a line.
-filletFixes :: Tool -> Element -> Element -> [Fix]
-filletFixes tool first second =
+filletFixes :: LengthUnit -> Tool -> Element -> Element -> [Fix]
+filletFixes unit tool first second =
   [ Fix.proposed
       ( Fix.insertion
           ("Round the corner for this tool: " <> text <> ".")
@@ -64,20 +64,21 @@ filletFixes tool first second =
           (" " <> text)
       )
     | finish first == plainFinish,
-      Just r <- [filletRadius tool first second],
-      let text = "fillet " <> (if turn first second > 0 then "-" else "") <> Decimal.mm r
+      Just r <- [filletRadius unit tool first second],
+      let text = "fillet " <> (if turn first second > 0 then "-" else "") <> Decimal.inUnit unit r
   ]
 
 -- | Radius of the fillet that the tool can follow at the corner between two lines, rounded up to
--- 0.001 mm. 'Nothing' if it takes more than half of one of them.
-filletRadius :: Tool -> Element -> Element -> Maybe Mm
-filletRadius tool first second = case (segment first, segment second) of
+-- 0.001 mm or 0.0001 in. 'Nothing' if it takes more than half of one of them.
+filletRadius :: LengthUnit -> Tool -> Element -> Element -> Maybe Mm
+filletRadius unit tool first second = case (segment first, segment second) of
   (Straight a b, Straight _ c)
     | share <= half a b && share <= half b c -> Just (Mm r)
   _ -> Nothing
   where
     Mm least = plus (radius tool) (leaves tool)
-    r = fromIntegral (ceiling (least * 1000 + 1) :: Int) / 1000
+    r = fromIntegral (ceiling (least * steps + 1) :: Int) / steps
+    steps = Decimal.stepsPerMm unit
     share = Mm (r * tan (abs (turn first second) / 2))
     half p q = times 0.5 (Vec.distance p q)
 
@@ -106,9 +107,9 @@ sideFixes region sides =
       Inside -> ("inside", "within the contour")
 
 -- | Fix that lets a contour begin near the point from which the cutter comes.
-startFix :: MillingPlaces -> Point -> Fix
-startFix milling from =
-  let text = "start near " <> Vec.toText 3 from
+startFix :: LengthUnit -> MillingPlaces -> Point -> Fix
+startFix unit milling from =
+  let text = "start near " <> Vec.toText unit 3 from
    in setting ("Let the contour begin where the cutter comes from: " <> text <> ".") text milling
 
 -- | Fix that leaves the compensation to the compiler. @asked@ is the setting that asks the control
@@ -123,16 +124,16 @@ compensationFix asked =
     )
 
 -- | Fix that lets an approach end at the top of the part.
-heightFix :: Region -> Point -> Fix
-heightFix region p =
-  let text = "(" <> Decimal.exact (Vec.x p) <> ", " <> Decimal.exact (Vec.y p) <> ", 0)"
+heightFix :: LengthUnit -> Region -> Point -> Fix
+heightFix unit region p =
+  let text = "(" <> Vec.coordinates unit p <> ", 0)"
    in Fix.proposed (Fix.exchange ("Approach at the top of the part: " <> text <> ".") region text)
 
 -- | Fix that takes the largest drill that keeps clear of a contour. @r@ is its radius.
-drillFixes :: Maybe Region -> Mm -> [Fix]
-drillFixes size (Mm r) =
+drillFixes :: LengthUnit -> Maybe Region -> Mm -> [Fix]
+drillFixes unit size (Mm r) =
   [ Fix.proposed (Fix.exchange ("Take the largest drill that fits: " <> text <> ".") place text)
     | Mm r >= Tolerance.smallestCutter,
-      let text = Decimal.mm (Mm (fromIntegral (floor (2 * r * 1000) :: Int) / 1000)),
+      let text = Decimal.inUnit unit (Decimal.roundedDown unit (Mm (2 * r))),
       Just place <- [size]
   ]

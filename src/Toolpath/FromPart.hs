@@ -59,12 +59,12 @@ toToolpath part = case (Part.start part, Part.operations part) of
     Result
       []
       []
-      (Just (Toolpath nowhere [] False (setupOf part)))
+      (Just (Toolpath nowhere [] False (setupOf part) (Part.unit part)))
   (Nothing, _) -> Result [] [] Nothing
   (Just begin, operations) ->
     case collect (firstState part (value begin)) operations of
       ([], blocks) ->
-        let path = Toolpath begin blocks (turns part) (setupOf part)
+        let path = Toolpath begin blocks (turns part) (setupOf part) (Part.unit part)
             errors = Intrusion.intrusions path
          in Result
               (restWarnings path <> (if null errors then Warning.warnings path else []))

@@ -13,7 +13,7 @@ where
 
 import Base.Decimal qualified as Decimal
 import Base.Name (Name (..))
-import Base.Quantity (Mm (..), plus, times)
+import Base.Quantity (LengthUnit, Mm (..), plus, times)
 import Base.Region (Located (..), Region)
 import Data.List (nub)
 import Data.List.NonEmpty (NonEmpty (..))
@@ -161,17 +161,17 @@ largestClear isClear given
 -- Reports -----------------------------------------------------------------------------------------
 
 -- | The report of a cause.
-toReport :: LinkingMoveError -> Report
-toReport cause = case cause of
-  OnOtherSide stops side name isWithin -> otherSideReport stops side name isWithin
-  LeadTooLarge leads element depth -> leadReport leads element depth
+toReport :: LengthUnit -> LinkingMoveError -> Report
+toReport unit cause = case cause of
+  OnOtherSide stops side name isWithin -> otherSideReport unit stops side name isWithin
+  LeadTooLarge leads element depth -> leadReport unit leads element depth
 
-otherSideReport :: NonEmpty (Located Point) -> Region -> Name -> Bool -> Report
-otherSideReport (Located first p :| more) side (Name name) isWithin =
+otherSideReport :: LengthUnit -> NonEmpty (Located Point) -> Region -> Name -> Bool -> Report
+otherSideReport unit (Located first p :| more) side (Name name) isWithin =
   ( at
       first
       "E0405"
-      ( Vec.toText 3 p
+      ( Vec.toText unit 3 p
           <> (if isWithin then " lies within ‘" else " lies outside of ‘")
           <> name
           <> "’, and the cutter mills "
@@ -193,28 +193,32 @@ otherSideReport (Located first p :| more) side (Name name) isWithin =
     where' = here <> " of ‘" <> name <> "’"
     otherSide = if isWithin then "inside" else "outside"
 
-leadReport :: NonEmpty LeadFit -> Element -> Mm -> Report
-leadReport leads@(first :| more) element depth =
-  (at (sizeAt first) "E0405" (leadText first <> " is too large here"))
+leadReport :: LengthUnit -> NonEmpty LeadFit -> Element -> Mm -> Report
+leadReport unit leads@(first :| more) element depth =
+  (at (sizeAt first) "E0405" (leadText unit first <> " is too large here"))
     { others =
-        [Label (sizeAt l) (leadText l <> " as well") | l <- more]
+        [Label (sizeAt l) (leadText unit l <> " as well") | l <- more]
           <> [ Label
                  (origin element)
-                 ("the cutter comes " <> Decimal.mm depth <> " too near to " <> shape element)
+                 ( "the cutter comes " <> Decimal.inUnit unit depth <> " too near to "
+                     <> shape unit element
+                 )
              ],
       fixes =
         [ Fix.proposed . Fix.joined title $
-            [Fix.exchange title (sizeAt l) (Decimal.mm (largest l)) | l <- first : more]
+            [Fix.exchange title (sizeAt l) (Decimal.inUnit unit (largest l)) | l <- first : more]
         ]
     }
   where
     title =
       "Write the largest that fits: "
-        <> Text.intercalate " and " (nub (map (Decimal.mm . largest) (NonEmpty.toList leads)))
+        <> Text.intercalate
+          " and "
+          (nub (map (Decimal.inUnit unit . largest) (NonEmpty.toList leads)))
         <> "."
 
-leadText :: LeadFit -> Text
-leadText LeadFit {which, form, given} =
+leadText :: LengthUnit -> LeadFit -> Text
+leadText unit LeadFit {which, form, given} =
   (if which == In then "the lead-in " else "the lead-out ")
     <> (case form of LeadLine -> "line of length "; LeadArc -> "arc of radius ")
-    <> Decimal.mm given
+    <> Decimal.inUnit unit given

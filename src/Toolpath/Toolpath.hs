@@ -26,7 +26,7 @@ module Toolpath.Toolpath
 where
 
 import Base.Name (Name)
-import Base.Quantity (Mm (..))
+import Base.Quantity (LengthUnit, Mm (..))
 import Base.Region (Located (..), Region)
 import Data.List.NonEmpty (NonEmpty (..))
 import Data.List.NonEmpty qualified as NonEmpty
@@ -45,7 +45,9 @@ data Toolpath = Toolpath
     blocks :: [Block],
     -- | true if the part is turned on a lathe
     isTurned :: Bool,
-    setup :: Setup
+    setup :: Setup,
+    -- | the unit in which reports and tables give lengths
+    unit :: LengthUnit
   }
   deriving stock (Eq, Show)
 

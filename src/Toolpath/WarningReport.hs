@@ -19,7 +19,7 @@ where
 
 import Base.Decimal qualified as Decimal
 import Base.Name (Name (..))
-import Base.Quantity (Mm (..), Rad (..), degrees, times)
+import Base.Quantity (LengthUnit, Mm (..), Rad (..), degrees, times)
 import Base.Region (Located (..), Region)
 import Base.Region qualified as Region
 import Data.Text (Text)
@@ -28,7 +28,7 @@ import Geometry.Segment (Segment (..))
 import Geometry.Segment qualified as Segment
 import Geometry.Vec (Point)
 import Geometry.Vec qualified as Vec
-import Part.Part (Element (..), MillingPlaces, Work (..))
+import Part.Part (Element (..), MillingPlaces, SpacePoint (..), Work (..))
 import Report.Fix qualified as Fix
 import Report.Report (Label (..), Report (..), ReportPlace (..), report)
 import Report.Report qualified as Report
@@ -70,18 +70,18 @@ data RestPosition
   deriving stock (Eq, Show)
 
 -- | The text of a warning.
-warningReport :: Warning -> Report
-warningReport warning = case warning of
+warningReport :: LengthUnit -> Warning -> Report
+warningReport unit warning = case warning of
   LeavesRestMaterial region tool stays ->
     ( report
         Report.Warning
         "W0401"
         (InSource region)
-        (cutter tool <> " leaves material at " <> positions (length stays))
+        (cutter unit tool <> " leaves material at " <> positions (length stays))
     )
       { others = take 6 (distinct (concatMap labels stays)),
         message =
-          map (restPositionText tool) (take shown stays)
+          map (restPositionText unit tool) (take shown stays)
             <> ["And at " <> positions (length stays - shown) <> " more." | length stays > shown],
         hints =
           ["Take a smaller cutter afterwards, or leave rest allowed out to have this refused."]
@@ -91,9 +91,9 @@ warningReport warning = case warning of
       { others = [Label named "inside this contour"],
         message =
           [ "It goes from "
-              <> Vec.toText 3 (Segment.start move)
+              <> Vec.toText unit 3 (Segment.start move)
               <> " to "
-              <> Vec.toText 3 (Segment.end move)
+              <> Vec.toText unit 3 (Segment.end move)
               <> " inside "
               <> text contour
               <> ", not above the top of the part. That it was cleared there is not known."
@@ -102,17 +102,17 @@ warningReport warning = case warning of
       }
   RapidIntoContent region p z (Located named contour) ->
     rapidIntoMaterial
+      unit
       region
-      p
-      z
+      (SpacePoint p z)
       (Label named "not cleared down to there inside this contour")
       ("The inside of " <> text contour <> " is not cleared")
       "let the cutter plunge at a feed"
   RapidIntoHole region p z hole ->
     rapidIntoMaterial
+      unit
       region
-      p
-      z
+      (SpacePoint p z)
       (Label hole "not drilled yet")
       "The hole is not drilled"
       "let the drill go down at a feed"
@@ -147,15 +147,15 @@ warningReport warning = case warning of
 -- | The warning about a rapid move into material. The arguments are the region of the program that
 -- asks for the move, the point and the height in mm at which the move is in the material, the label
 -- of the material, the sentence about it up to the height, and the rest of the hint.
-rapidIntoMaterial :: Region -> Point -> Mm -> Label -> Text -> Text -> Report
-rapidIntoMaterial region p z material uncleared advice =
+rapidIntoMaterial :: LengthUnit -> Region -> SpacePoint -> Label -> Text -> Text -> Report
+rapidIntoMaterial unit region (SpacePoint p z) material uncleared advice =
   (report Report.Warning "W0402" (InSource region) "this rapid move goes into material")
     { others = [material],
       message =
         [ "At "
-            <> Vec.toText 3 p
+            <> Vec.toText unit 3 p
             <> " it is at the height "
-            <> Decimal.mm z
+            <> Decimal.inUnit unit z
             <> ". "
             <> uncleared
             <> " down to there before."
@@ -164,7 +164,7 @@ rapidIntoMaterial region p z material uncleared advice =
         [ "Stop above the material, and "
             <> advice
             <> ": move ("
-            <> Text.intercalate ", " (map (Decimal.short 3) [Vec.x p, Vec.y p, height])
+            <> Text.intercalate ", " (map (Decimal.shortIn unit 3 . Mm) [Vec.x p, Vec.y p, height])
             <> ") feed and a number."
         ]
     }
@@ -172,43 +172,44 @@ rapidIntoMaterial region p z material uncleared advice =
     Mm height = z
 
 -- | The text for one position of rest material.
-restPositionText :: Tool -> RestPosition -> Text
-restPositionText tool s = case s of
-  InCorner _ _ p -> "In the inner corner at " <> Vec.toText 3 p <> "."
+restPositionText :: LengthUnit -> Tool -> RestPosition -> Text
+restPositionText unit tool s = case s of
+  InCorner _ _ p -> "In the inner corner at " <> Vec.toText unit 3 p <> "."
   InConcaveArc a old largest ->
     "In the concave radius of "
-      <> Decimal.mm old
+      <> Decimal.inUnit unit old
       <> " of "
-      <> shape a
+      <> shape unit a
       <> ". "
-      <> largestFit tool largest
+      <> largestFit unit tool largest
   Between a b p largest ->
     "Between "
-      <> shape a
+      <> shape unit a
       <> " and "
-      <> shape b
+      <> shape unit b
       <> ", with the centre at "
-      <> Vec.toText 3 p
+      <> Vec.toText unit 3 p
       <> ". "
-      <> largestFit tool largest
+      <> largestFit unit tool largest
 
 -- | The text for the size of a cutter with the radius @r@: the diameter for milling, the radius of
--- the nose for turning. It is rounded down to 0.001 mm, so that a cutter of this size fits.
-fittingSize :: Tool -> Mm -> Text
-fittingSize tool r = case work tool of
+-- the nose for turning. It is rounded down to 0.001 mm or 0.0001 in, so that a cutter of this size
+-- fits.
+fittingSize :: LengthUnit -> Tool -> Mm -> Text
+fittingSize unit tool r = case work tool of
   Milled -> down (times 2 r)
   Turned -> down r
   where
-    down (Mm x) = Decimal.mm (Mm (fromInteger (floor (x * 1000)) / 1000))
+    down x = Decimal.inUnit unit (Decimal.roundedDown unit x)
 
 -- | The text for a cutter.
-cutter :: Tool -> Text
-cutter Tool {work, radius, leaves} =
-  size <> (if leaves > Mm 0 then " that leaves " <> Decimal.mm leaves else "")
+cutter :: LengthUnit -> Tool -> Text
+cutter unit Tool {work, radius, leaves} =
+  size <> (if leaves > Mm 0 then " that leaves " <> Decimal.inUnit unit leaves else "")
   where
     size = case work of
-      Milled -> "a cutter of diameter " <> Decimal.mm (times 2 radius)
-      Turned -> "a nose of radius " <> Decimal.mm radius
+      Milled -> "a cutter of diameter " <> Decimal.inUnit unit (times 2 radius)
+      Turned -> "a nose of radius " <> Decimal.inUnit unit radius
 
 -- | The verb for the kind of work.
 workVerb :: Tool -> Text
@@ -218,13 +219,13 @@ workVerb tool = case work tool of
 
 -- | The text for an element: a line with its ends, an arc or a whole circle with its radius and
 -- centre, or a curve.
-shape :: Element -> Text
-shape element = case segment element of
+shape :: LengthUnit -> Element -> Text
+shape unit element = case segment element of
   Straight _ _ | ofCurve element -> "the curve"
   Arc {start, centre}
     | ofCurve element ->
-      "the curve, here of radius " <> Decimal.mm (Segment.radius centre start)
-  Straight a b -> "the line from " <> Vec.toText 3 a <> " to " <> Vec.toText 3 b
+      "the curve, here of radius " <> Decimal.inUnit unit (Segment.radius centre start)
+  Straight a b -> "the line from " <> Vec.toText unit 3 a <> " to " <> Vec.toText unit 3 b
   Arc {start, centre, sweep = Rad s} ->
     "the "
       <> ( if abs s > 2 * pi - 1e-9
@@ -232,9 +233,9 @@ shape element = case segment element of
              else (if s > 0 then "counter-clockwise" else "clockwise") <> " arc"
          )
       <> " of radius "
-      <> Decimal.mm (Segment.radius centre start)
+      <> Decimal.inUnit unit (Segment.radius centre start)
       <> " about "
-      <> Vec.toText 3 centre
+      <> Vec.toText unit 3 centre
 
 -- | The text, in degrees, for an angle in radians.
 inDegrees :: Double -> Text
@@ -242,12 +243,18 @@ inDegrees a = Decimal.short 3 (degrees (Rad a)) <> " deg"
 
 -- | The text for the largest cutter that fits. @largest@ is its radius, for a turning tool the
 -- radius of the nose; 'Nothing' if no cutter fits.
-largestFit :: Tool -> Maybe Mm -> Text
-largestFit tool largest = case (work tool, largest) of
+largestFit :: LengthUnit -> Tool -> Maybe Mm -> Text
+largestFit unit tool largest = case (work tool, largest) of
   (_, Nothing) -> "No cutter fits here, however small."
-  (Milled, Just r) -> "The largest cutter that fits has a diameter of " <> fittingSize tool r <> "."
-  (Turned, Just r) -> "The largest nose that fits has a radius of " <> fittingSize tool r <> "."
+  (Milled, Just r) ->
+    "The largest cutter that fits has a diameter of "
+      <> fittingSize unit tool r
+      <> "."
+  (Turned, Just r) ->
+    "The largest nose that fits has a radius of " <> fittingSize unit tool r
+      <> "."
 
 -- | The label of the second element; empty if both elements come from the same region.
-secondLabel :: Element -> Element -> [Label]
-secondLabel first second = [Label (origin second) (shape second) | origin second /= origin first]
+secondLabel :: LengthUnit -> Element -> Element -> [Label]
+secondLabel unit first second =
+  [Label (origin second) (shape unit second) | origin second /= origin first]

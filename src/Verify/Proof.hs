@@ -20,7 +20,7 @@ where
 import Base.Decimal qualified as Decimal
 import Base.Name (Name)
 import Base.PulseVector (Pulses3 (..))
-import Base.Quantity (Feed (..), Mm (..), Pulses (..))
+import Base.Quantity (Feed (..), LengthUnit (..), Mm (..), Pulses (..))
 import Base.Region (Located, Region)
 import Control.Compensation (CompensationError)
 import Control.CompensationCheck qualified as CompensationCheck
@@ -220,8 +220,8 @@ isProven :: Proof -> Bool
 isProven proof = null (findings proof) && null (controlFindings proof)
 
 -- | Reports of all findings, in their order.
-toReports :: Machine -> Proof -> [Report]
-toReports machine proof = map (toReport machine) (findings proof)
+toReports :: LengthUnit -> Machine -> Proof -> [Report]
+toReports unit machine proof = map (toReport unit machine) (findings proof)
 
 -- | Number, from 1, of the frame that a finding is about. Nothing if it is about a frame that is
 -- missing.
@@ -230,8 +230,8 @@ frameOf finding = case tapeOrder finding of
   (n, _) | n > 0 && n < maxBound -> Just n
   _ -> Nothing
 
-toReport :: Machine -> Finding -> Report
-toReport machine finding = case finding of
+toReport :: LengthUnit -> Machine -> Finding -> Report
+toReport unit machine finding = case finding of
   Gouge first worst allowed ->
     ( wrong
         "E0701"
@@ -241,7 +241,7 @@ toReport machine finding = case finding of
       { label = "into this element",
         message =
           [ "The cutter's centre is then at "
-              <> Vec.toText 3 (location first)
+              <> Vec.toText unit 3 (location first)
               <> ". A gouge of up to "
               <> micro allowed
               <> " is allowed: the tolerance and one pulse."
@@ -263,7 +263,7 @@ toReport machine finding = case finding of
       { label = "at this element",
         message =
           [ "The most is left at "
-              <> Vec.toText 3 (location w)
+              <> Vec.toText unit 3 (location w)
               <> ". Up to "
               <> micro allowed
               <> " is allowed: the tolerance and one pulse."
@@ -283,8 +283,8 @@ toReport machine finding = case finding of
       "E0704"
       (InSource region)
       ( "the cutter never comes to "
-          <> Vec.toText 3 p
-          <> (if height == Mm 0 then "" else " at the height " <> Decimal.mm height)
+          <> Vec.toText unit 3 p
+          <> (if height == Mm 0 then "" else " at the height " <> Decimal.inUnit unit height)
           <> ", where this contour begins"
       )
   NotFollowed region ->
@@ -296,9 +296,9 @@ toReport machine finding = case finding of
     ( wrong
         "E0714"
         (InSource region)
-        ("the tape does not clear the floor of this pocket at " <> Vec.toText 3 p)
+        ("the tape does not clear the floor of this pocket at " <> Vec.toText unit 3 p)
     )
-      { label = "at the height " <> Decimal.mm z,
+      { label = "at the height " <> Decimal.inUnit unit z,
         message = ["The cutter has room there, but no frame brings it near enough to this point."]
       }
   NotInOrder region ->
@@ -318,14 +318,14 @@ toReport machine finding = case finding of
     wrong
       "E0710"
       (InSource region)
-      ("the tape drills no hole of the right depth at " <> Vec.toText 3 p)
+      ("the tape drills no hole of the right depth at " <> Vec.toText unit 3 p)
   CutsElsewhere n p ->
     ( wrong
         "E0711"
         InFile
         (frameWord n <> " cuts where the program does not, or deeper than the program")
     )
-      { message = ["The cutter's centre is then at " <> Vec.toText 3 p <> "."]
+      { message = ["The cutter's centre is then at " <> Vec.toText unit 3 p <> "."]
       }
   NotAsked n p ->
     ( wrong
@@ -333,20 +333,20 @@ toReport machine finding = case finding of
         InFile
         (frameWord n <> " makes a move that the program does not ask for at this point")
     )
-      { message = ["It moves the cutter's centre to " <> Vec.toText 3 p <> "."]
+      { message = ["It moves the cutter's centre to " <> Vec.toText unit 3 p <> "."]
       }
   MoveMissing region p ->
     wrong
       "E0717"
       (InSource region)
-      ("the tape does not make this move, which ends at " <> Vec.toText 3 p)
+      ("the tape does not make this move, which ends at " <> Vec.toText unit 3 p)
   WrongFeed n found wanted region ->
     ( wrong
         "E0706"
         (InSource region)
-        (frameWord n <> " runs at a wrong feed: " <> speed machine found)
+        (frameWord n <> " runs at a wrong feed: " <> speed unit machine found)
     )
-      { message = ["The program asks for " <> speed machine wanted <> " there."]
+      { message = ["The program asks for " <> speed unit machine wanted <> " there."]
       }
   WrongCommand n (CommandName name) found wanted ->
     ( wrong
@@ -368,19 +368,19 @@ toReport machine finding = case finding of
       }
   Refused refusal ->
     let (n, why, more) =
-          refusalWords refusal
+          refusalWords unit refusal
      in (wrong "E0712" InFile (frameWord n <> " " <> why)) {message = more}
-  TooFast n (Feed is) (Feed may) ->
+  TooFast n is may ->
     ( wrong
         "E0713"
         InFile
-        (frameWord n <> " is too fast at its end: " <> Decimal.short 2 is <> " mm/min")
+        (frameWord n <> " is too fast at its end: " <> Decimal.feedIn unit 2 is)
     )
       { message =
           [ "To slow down in time for the frames that follow, or for the end of the tape, it may \
             \have at most "
-              <> Decimal.short 2 may
-              <> " mm/min there."
+              <> Decimal.feedIn unit 2 may
+              <> " there."
           ]
       }
   LeavesPath region p found allowed ->
@@ -412,16 +412,16 @@ toReport machine finding = case finding of
   where
     wrong = report Report.Error
     frameWord n = "frame " <> Decimal.whole n
-    micro (Mm x) = Decimal.fixed 4 x <> " mm"
+    micro x = Decimal.fixedInUnit unit 4 x
 
 -- | Number of the refused frame.
 refusedFrame :: Refusal -> Int
-refusedFrame refusal = let (n, _, _) = refusalWords refusal in n
+refusedFrame refusal = let (n, _, _) = refusalWords Millimetres refusal in n
 
 -- | Number of a frame, the reason why a control refuses it, and further sentences. The reason
 -- completes a sentence that begins with the frame.
-refusalWords :: Refusal -> (Int, Text, [Text])
-refusalWords refusal = case refusal of
+refusalWords :: LengthUnit -> Refusal -> (Int, Text, [Text])
+refusalWords unit refusal = case refusal of
   ByRule broken -> case broken of
     Frame.OverCapacity n axis d ->
       (n, "moves " <> axisWord axis <> " by " <> pulses d <> ", more than its field holds", [])
@@ -444,8 +444,8 @@ refusalWords refusal = case refusal of
   UnequalRadii n (Mm d) ->
     ( n,
       "is an arc that ends "
-        <> Decimal.fixed 4 (abs d)
-        <> " mm "
+        <> Decimal.fixedInUnit unit 4 (Mm (abs d))
+        <> " "
         <> (if d > 0 then "further from" else "nearer to")
         <> " its centre than it begins",
       ["The two may differ by 2 pulses."]
@@ -467,20 +467,22 @@ rotaryWord :: RotaryAxis -> Text
 rotaryWord axis = Machine.contentName (Machine.About axis)
 
 -- | Speed in words.
-speed :: Machine -> Speed -> Text
-speed machine s = (if rapidly s then "rapid" else feed) <> (if braking s then ", braking" else "")
+speed :: LengthUnit -> Machine -> Speed -> Text
+speed unit machine s =
+  (if rapidly s then "rapid" else feed)
+    <> (if braking s then ", braking" else "")
   where
     feed =
       "speed "
         <> Decimal.whole number
         <> maybe
           ""
-          (\v -> " (" <> Decimal.short 2 v <> unit <> ")")
+          (\v -> " (" <> measured v <> ")")
           (Machine.valueOf machine (code s))
     FeedCode number = code s
-    unit = case Machine.feedMeasure (Machine.feeds machine) of
-      Machine.AlongPath -> " mm/min"
-      Machine.LeadingAxis -> " pulses a second"
+    measured v = case Machine.feedMeasure (Machine.feeds machine) of
+      Machine.AlongPath -> Decimal.feedIn unit 2 (Feed v)
+      Machine.LeadingAxis -> Decimal.short 2 v <> " pulses a second"
 
 pulses :: Pulses -> Text
 pulses (Pulses n) = Decimal.whole n <> (if abs n == 1 then " pulse" else " pulses")

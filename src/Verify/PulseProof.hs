@@ -12,7 +12,7 @@ module Verify.PulseProof
 where
 
 import Base.Decimal qualified as Decimal
-import Base.Quantity (Feed (..), Seconds (..))
+import Base.Quantity (Feed (..), LengthUnit (..), Seconds (..))
 import Data.Text (Text)
 import Data.Text qualified as Text
 import Machine.Controller (FrequencyLimits)
@@ -90,15 +90,15 @@ isSound :: PulseProof -> Bool
 isSound = null . pulseFindings
 
 -- | Reports of all findings.
-toReports :: Machine -> PulseProof -> [Report]
-toReports machine = map (toReport machine) . pulseFindings
+toReports :: LengthUnit -> Machine -> PulseProof -> [Report]
+toReports unit machine = map (toReport unit machine) . pulseFindings
 
-toReport :: Machine -> PulseFinding -> Report
-toReport machine finding = case finding of
+toReport :: LengthUnit -> Machine -> PulseFinding -> Report
+toReport unit machine finding = case finding of
   OffMotion first worst -> offReport machine first worst
   EndMissed n missed ->
     wrong "E0719" ("the pulses of " <> frameWord n <> " miss its end by " <> vector missed)
-  FeedTooHigh first worst -> feedReport first worst
+  FeedTooHigh first worst -> feedReport unit first worst
   AxisTooFast k peak limit ->
     driveReport
       ("axis " <> axis k <> " makes " <> hz (peakHz peak) <> " in " <> frameWord (peakFrame peak))
@@ -149,8 +149,8 @@ offReport machine first worst =
     off w = pulses (amount w)
     pulses x = Decimal.fixed 4 x <> " pulses"
 
-feedReport :: FeedWitness -> FeedWitness -> Report
-feedReport first worst =
+feedReport :: LengthUnit -> FeedWitness -> FeedWitness -> Report
+feedReport unit first worst =
   ( wrong
       "E0720"
       ( frameWord (feedFrame first)
@@ -172,7 +172,7 @@ feedReport first worst =
              ]
     }
   where
-    feed (Feed v) = Decimal.short 2 v <> " mm/min"
+    feed v = Decimal.feedIn unit 2 v
 
 stopReport :: StopReason -> Report
 stopReport why = case why of

@@ -2,7 +2,7 @@
 module Base.DecimalSpec (spec) where
 
 import Base.Decimal qualified as Decimal
-import Base.Quantity (Mm (..))
+import Base.Quantity (LengthUnit (..), Mm (..))
 import Data.Char (isDigit)
 import Data.Text qualified as Text
 import Test.Hspec
@@ -24,11 +24,13 @@ spec = do
         `shouldBe` ["0", "0", "0.1", "59.3", "-2.5", "0.001", "100", "0.3333333333333333"]
     it "rounds a number with more digits than a program allows" $
       (Decimal.parse (Decimal.exact 1e-30), Decimal.exact 5e-324) `shouldBe` (Just 1e-30, "0")
-  describe "distinctMm" $ do
+  describe "distinctIn" $ do
     it
       "has enough decimals to tell two lengths apart (catches the report that 3 mm do not fit into \
       \a radius of 3 mm)"
-      $ [Decimal.distinctMm (Mm 3) (Mm x) | x <- [2.5, 3, 2.9999, 2.99999, 3.000004, 3 - 1e-12]]
+      $ [ Decimal.distinctIn Millimetres (Mm 3) (Mm x)
+          | x <- [2.5, 3, 2.9999, 2.99999, 3.000004, 3 - 1e-12]
+        ]
         `shouldBe` ["2.5 mm", "3 mm", "2.9999 mm", "2.99999 mm", "3.000004 mm", "3 mm"]
   describe "parse" $ do
     it "is the nearest double, whatever the number of digits" $

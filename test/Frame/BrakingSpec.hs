@@ -2,7 +2,7 @@
 module Frame.BrakingSpec (spec) where
 
 import Base.PulseVector (Pulses3 (..))
-import Base.Quantity (Feed (..), Mm (..), Rad (..))
+import Base.Quantity (Feed (..), LengthUnit (..), Mm (..), Rad (..))
 import Base.Region (Located (..), Region (Region))
 import Frame.FeedCode qualified as FeedCode
 import Frame.Frame (Frame (..), PlannedFrame (frame))
@@ -110,6 +110,7 @@ framesFor m ms =
             [Travelling (Mm 0) [] ms]
             False
             Toolpath.noSetup
+            Millimetres
         )
     )
 

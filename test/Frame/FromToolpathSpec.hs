@@ -1,7 +1,7 @@
 -- | Laws of frames.
 module Frame.FromToolpathSpec (spec) where
 
-import Base.Quantity (Feed (..), Mm (..), Rad (..))
+import Base.Quantity (Feed (..), LengthUnit (..), Mm (..), Rad (..))
 import Base.Region (Located (..), Region (Region))
 import Base.Result qualified as Result
 import Data.Text (Text)
@@ -258,6 +258,7 @@ spec = do
             [Toolpath.Travelling (Mm 0) [] [down]]
             False
             Toolpath.noSetup
+            Millimetres
 
 -- | Toolpath along @n@ contours.
 contoursOf :: Int -> Toolpath
@@ -282,7 +283,12 @@ contoursOf n =
 
 errorsOn :: Machine -> Toolpath -> [Text]
 errorsOn m path =
-  [c | ReportCode c <- map (Report.code . Error.toReport m) (Result.errors (Made.quantised m path))]
+  [ c
+    | ReportCode c <-
+        map
+          (Report.code . Error.toReport Millimetres m)
+          (Result.errors (Made.quantised m path))
+  ]
 
 machine :: Gen Machine
 machine = elements Machines.known

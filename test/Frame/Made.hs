@@ -13,7 +13,7 @@ module Frame.Made
   )
 where
 
-import Base.Quantity (Mm (..))
+import Base.Quantity (LengthUnit (..), Mm (..))
 import Base.Region (Located (..), Region (Region))
 import Base.Result (Result)
 import Base.Result qualified as Result
@@ -63,6 +63,7 @@ pathAlong pace segments = case segments of
       ]
       False
       Toolpath.noSetup
+      Millimetres
   where
     nowhere = Region 0 0
 

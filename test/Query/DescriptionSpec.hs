@@ -51,7 +51,8 @@ spec = do
     explained "part p\n^feed 60 mm/min\n" `shouldSatisfy` isJust
     explained "part p\nmill a outside {\n  ^depth 4\n}\n" `shouldSatisfy` isJust
     explained "part p\nfeed 60 mm^/min\n"
-      `shouldBe` Just "Is the millimetre per minute; a feed without a unit is in mm/min."
+      `shouldBe` Just
+        "Is the millimetre per minute; without units in, a feed without a unit is in mm/min."
     explained "part p\nlet a = ^sqrt(4)\n" `shouldBe` Just "Gives the square root."
   it "has nothing to say on a number, a sign and a new name" $
     map at' ["part p\nlet a = 4^1\n", "part p\nlet a ^= 4\n", "part p\n^\n"]

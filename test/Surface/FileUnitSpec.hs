@@ -25,7 +25,7 @@ import Machines qualified
 import Project.Job (Job (verification), Verification (Unverified))
 import Project.LoadedProgram (LoadedProgram)
 import Project.LoadedProgram qualified as LoadedProgram
-import Report.Report (Report)
+import Report.Report (Report, ReportCode)
 import Report.Report qualified as Report
 import Surface.Import qualified as Import
 import Surface.Lexer qualified as Lexer
@@ -82,8 +82,8 @@ fromFiles files name text = runIdentity (LoadedProgram.load (Import.byName reade
 alone :: Text -> LoadedProgram
 alone = LoadedProgram.fromText "p.part"
 
--- | The frames of a program, or the titles of its errors.
-outcome :: LoadedProgram -> Either [Text] [Frame]
+-- | The frames of a program, or the codes of its errors.
+outcome :: LoadedProgram -> Either [ReportCode] [Frame]
 outcome loaded = case Compile.compile job loaded :: Result Report Report [Compiled] of
   Result {errors = [], output = Just compiled} ->
     Right
@@ -91,7 +91,7 @@ outcome loaded = case Compile.compile job loaded :: Result Report Report [Compil
         | c <- compiled,
           planned <- Frame.plannedFrames (program (punched c))
       ]
-  Result {errors} -> Left (map Report.title errors)
+  Result {errors} -> Left (map Report.code errors)
   where
     job = (Machines.jobForOwnOr Machines.lkp01f [] loaded) {verification = Unverified}
 

@@ -2,7 +2,7 @@
 module Tape.FiveAxesSpec (spec) where
 
 import Base.PulseVector (Pulses2 (..), Pulses3 (..))
-import Base.Quantity (Mm (..))
+import Base.Quantity (LengthUnit (..), Mm (..))
 import Base.Region qualified as Region
 import Cli.FrameTable qualified as FrameTable
 import Data.Bits (popCount)
@@ -71,11 +71,14 @@ spec = do
             && drop 5 rows == [Text.words "5 line 948 -442 -50 -592 -1268 120 120"]
   it "tables and JSON name a and b only where they belong (catches columns of other machines)" $ do
     let json machine = FrameTable.framesJson machine source (planned [moved])
-        table machine = Text.words (FrameTable.frames machine source (planned [moved]))
+        table machine = Text.words (FrameTable.frames Millimetres machine source (planned [moved]))
     ("\"turn\":{\"a\":0,\"b\":0}" `Text.isInfixOf` json n55) `shouldBe` True
     ("turn" `Text.isInfixOf` json lkp01f) `shouldBe` False
     [w | machine <- [n55, lkp01f], w <- table machine, w `elem` ["da", "db"]] `shouldBe` []
-    ("da" `elem` Text.words (FrameTable.frames n55 source (planned [moved {turn = Pulses2 1 0}])))
+    ( "da"
+        `elem` Text.words
+          (FrameTable.frames Millimetres n55 source (planned [moved {turn = Pulses2 1 0}]))
+      )
       `shouldBe` True
   it "a line with a wrong turn is refused, with its reason (catches a reader that guesses)" $ do
     reasonOf "N001A+000001F0060" `shouldBe` Just IncrementWithoutMotion

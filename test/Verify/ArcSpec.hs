@@ -3,7 +3,7 @@
 module Verify.ArcSpec (spec) where
 
 import Base.PulseVector (Pulses2 (..), Pulses3 (..))
-import Base.Quantity (Mm (..), Pulses (..), Rad (..))
+import Base.Quantity (LengthUnit (..), Mm (..), Pulses (..), Rad (..))
 import Base.Region (Located (..), Region (Region))
 import Base.Result qualified as Result
 import Compile (Analysis (..))
@@ -293,6 +293,7 @@ refusals machine f =
               []
               False
               Toolpath.noSetup
+              Millimetres
           )
           (Frame.FrameProgram 0 [])
           [f]

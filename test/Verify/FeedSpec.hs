@@ -3,7 +3,7 @@
 module Verify.FeedSpec (spec) where
 
 import Base.PulseVector (Pulses3 (..))
-import Base.Quantity (Feed (..), Mm (..), Pulses (..))
+import Base.Quantity (Feed (..), LengthUnit (..), Mm (..), Pulses (..))
 import Base.Region (Located (..), Region (Region))
 import Base.Result qualified as Result
 import Data.List.NonEmpty (NonEmpty (..))
@@ -210,6 +210,7 @@ resting =
     []
     False
     Toolpath.noSetup
+    Millimetres
 
 -- | Toolpath 10 mm along x in rapid, 4 mm down at 30 mm/min, and up again in rapid.
 plunging :: Toolpath

@@ -2,7 +2,7 @@
 module Verify.FromTapeSpec (spec) where
 
 import Base.PulseVector (Pulses2 (..), Pulses3 (..))
-import Base.Quantity (Mm (..), Pulses (..), Rad (..))
+import Base.Quantity (LengthUnit (..), Mm (..), Pulses (..), Rad (..))
 import Base.Region (Located (..), Region (Region))
 import Base.Result qualified as Result
 import Compile (Analysis (..))
@@ -206,6 +206,7 @@ spec = do
                                 )
                             )
                             $ Proof.toReports
+                              Millimetres
                               lkp01f
                               ( Verify.prove
                                   lkp01f

@@ -3,7 +3,7 @@ module Verify.PocketSpec (spec) where
 
 import Base.Decimal qualified as Decimal
 import Base.PulseVector (Pulses3 (..))
-import Base.Quantity (Mm (..), minus, plus, times)
+import Base.Quantity (LengthUnit (..), Mm (..), minus, plus, times)
 import Base.Result qualified as Result
 import Compile (Analysis (path))
 import Compile qualified
@@ -47,7 +47,7 @@ spec = modifyMaxSuccess (const 60) $ do
     $ forAll ((,,) <$> Generate.pocket <*> more <*> Test.QuickCheck.elements machines) $
       \(p, first, m) ->
         forAllPath (Generate.pocketing first p) $ \path ->
-          Proof.toReports m (proofOf m path) === []
+          Proof.toReports Millimetres m (proofOf m path) === []
   prop
     "in a proven pocket, points that the cutter can reach lie within its radius of the motions \
     \(catches a proof of nothing)"
