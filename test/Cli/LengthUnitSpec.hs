@@ -62,13 +62,15 @@ inUnit unit a =
   a {part = (part a) {Part.unit = unit}, path = (path a) {Toolpath.unit = unit}}
 
 -- | True if a word of a table in mm and the word in its place of the table in inches say the same.
--- A length has three decimals in mm and four in inches, an area three and five. The sizes of
--- cutters have up to four decimals in mm and up to five in inches, and are rounded down.
+-- A length has three decimals in mm and four in inches, an area three and five. Radii and the sizes
+-- of cutters have up to four decimals in mm and up to five in inches, and the sizes are rounded
+-- down.
 isSame :: Text -> Text -> Property
 isSame mm inch = counterexample (show (mm, inch)) $ case (number mm, number inch) of
   (Just a, Just b)
-    | decimals mm == 3 && decimals inch == 4 -> near 0.0018 a (25.4 * b)
-    | decimals mm == 3 && decimals inch == 5 -> near 0.0038 a (25.4 * 25.4 * b)
+    | decimals mm == 3 && decimals inch == 4 -> near 0.0036 a (25.4 * b)
+    | decimals mm == 3 && decimals inch == 5 ->
+      near 0.0038 a (25.4 * 25.4 * b) .||. near 0.0036 a (25.4 * b)
     | mm /= inch -> near 0.0036 a (25.4 * b)
     | otherwise -> property (decimals mm < 3)
   _ -> Text.replace "mm" "in" mm === inch
