@@ -125,9 +125,11 @@ reports form compiled gcode source reading proof =
     frames =
       map (const Nothing) (Proof.controlFindings proof)
         <> map Proof.frameOf (Proof.findings proof)
+    -- A report without a line of its own is about the end of the last file.
     withLine frame report = case FromGcode.lineOfFrame reading (fromMaybe lastFrame frame) of
-      Nothing -> report
       Just k -> atLine frame (lineRegion k) report
+      Nothing -> maybe report (\k -> atLine Nothing (lineRegion k) report) lastLine
+    lastLine = FromGcode.lineOfFrame reading lastFrame
     lastFrame = length (FromGcode.framesRead reading)
 
 -- | Report with the region of a line: as its place, or beside a place in the program with the

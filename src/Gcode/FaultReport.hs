@@ -98,7 +98,8 @@ badArc :: (Text, [Text], [Text])
 badArc =
   ( "the centre of this arc is missing, or not possible",
     [ "I and J lead from the beginning of the arc to its centre, which is at neither end. With R \
-      \in place of I and J, the ends differ and are at most 2 R apart."
+      \in place of I and J, the ends differ and are at most 2 R apart.",
+      "After G18 the words are I and K, after G19 J and K."
     ],
     ["Write I and J from the beginning of the arc to its centre."]
   )

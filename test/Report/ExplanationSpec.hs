@@ -27,8 +27,8 @@ import Test.Hspec hiding (Example)
 raisedElsewhere :: [(String, [Text])]
 raisedElsewhere =
   [ ("a program that no page holds", ["E0116"]),
-    ("a tape", ["E0601", "E0602"]),
-    ("a tape that is made, which a check of the program does not do", ["W0507"]),
+    ("a tape or a file", ["E0601", "E0602", "E0603"]),
+    ("a tape that is made, which a check of the program does not do", ["W0507", "W0508"]),
     ( "an input sheet",
       [ "E0901",
         "E0902",
@@ -89,7 +89,19 @@ raisedElsewhere =
         "E0719",
         "E0720",
         "E0721",
-        "E0722"
+        "E0722",
+        "E0723",
+        "E0724",
+        "E0725",
+        "E0726",
+        "E0727",
+        "E0728",
+        "E0729",
+        "E0730",
+        "E0731",
+        "E0732",
+        "E0733",
+        "E0734"
       ]
     ),
     ( "files and the command line",
@@ -115,6 +127,7 @@ raisedElsewhere =
         "E0815",
         "E0816",
         "E0817",
+        "E0818",
         "W0801"
       ]
     )
