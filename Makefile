@@ -115,9 +115,14 @@ editors-test: build ## try the editors that are installed, each with the languag
 	$(call banner,editors)
 	@bash scripts/editors-try.sh "$(PARTC)"
 
-controls-test: needs-test ## test the checkers of G-code for GRBL, Marlin and LinuxCNC
+# The examples are tried if partc is built, or with PARTC=FILE.
+controls-test: needs-test ## test the checkers of G-code, and by them the examples for modern controls
 	$(call banner,controls)
 	@python3 -B -m unittest discover -s test/controls
+	$(call banner,examples for modern controls)
+	@partc="$(PARTC)" || true; \
+	  if [[ -x "$$partc" ]]; then python3 -B test/controls/examples.py "$$partc"; \
+	  else echo 'partc is not built: examples/cnc is not tried'; fi
 
 demo: build ## compile, prove, report and draw an example part
 	@mkdir -p build
