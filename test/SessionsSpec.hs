@@ -1,7 +1,8 @@
 -- | The documents show the output of the command.
 --
 -- A block @```console@ contains commands, each after @$@, and their output: reports first, then
--- results. The commands run in a folder with one file: the last program above them that has a
+-- results. A command is one of @partc@, or of the system if it shows or edits a text file. The
+-- commands of a block run in a folder with one file: the last program above them that has a
 -- @part@ statement (@```part@ or @```part wrong@), in a file named for the part, or the last input
 -- sheet (@```sheet NAME@). Beside it lie the tapes of @examples@ that the commands name. With
 -- PARTC_RECORD set, the output is written into the document.
@@ -19,7 +20,7 @@ import Files (readText)
 import System.Directory (copyFile, listDirectory)
 import System.Environment (lookupEnv)
 import System.FilePath (takeExtension, (</>))
-import System.Process (CreateProcess (cwd), proc, readCreateProcessWithExitCode)
+import System.Process (CreateProcess (cwd), proc, readCreateProcessWithExitCode, shell)
 import Test.Hspec
 
 spec :: Spec
@@ -75,15 +76,15 @@ rerun section = case section of
     files <- listDirectory "examples"
     let isNamed file = takeExtension file == ".tape" && Text.isInfixOf (Text.pack file) body
     forM_ (filter isNamed files) $ \file -> copyFile ("examples" </> file) (folder </> file)
-    shown <-
+    outputs <-
       traverse (run folder) [c | line <- Text.lines body, Just c <- [Text.stripPrefix "$ " line]]
-    pure ("console\n" <> Text.concat shown)
+    pure ("console\n" <> Text.concat outputs)
   where
     run folder command = case Text.words command of
-      "partc" : arguments -> do
-        (_, out, err) <-
-          readCreateProcessWithExitCode
-            (proc "partc" (map Text.unpack arguments)) {cwd = Just folder}
-            ""
-        pure ("$ " <> command <> "\n" <> Text.pack err <> Text.pack out)
+      "partc" : arguments -> shown folder command (proc "partc" (map Text.unpack arguments))
+      tool : _
+        | tool `elem` ["head", "sed"] -> shown folder command (shell (Text.unpack command))
       _ -> fail ("no command of ours: " <> Text.unpack command)
+    shown folder command process = do
+      (_, out, err) <- readCreateProcessWithExitCode process {cwd = Just folder} ""
+      pure ("$ " <> command <> "\n" <> Text.pack err <> Text.pack out)
