@@ -21,6 +21,12 @@ spec = do
       it (file <> ": program " <> show n <> " compiles") $ do
         texts <- Blocks.load file block
         map Report.title (Result.errors (Compile.analyse [] texts)) `shouldBe` []
+  it "README.md and docs/tour-cnc.md show the program of examples/cnc/cover.part" $ do
+    cover <- Text.strip . snd . Text.breakOn "part cover" <$> readText "examples/cnc/cover.part"
+    Text.length cover `shouldSatisfy` (> 0)
+    forM_ ["README.md", "docs/tour-cnc.md"] $ \file -> do
+      programs <- map Blocks.program . Blocks.blocks <$> readText file
+      map Text.strip programs `shouldContain` [cover]
   it "docs/language.md lists every report code, and no other" $ do
     codes <- Codes.inSources
     manual <- readText "docs/language.md"
