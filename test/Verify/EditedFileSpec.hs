@@ -120,7 +120,7 @@ isAccepted Subject {compiled, evaluated} text = case Machine.programForm (machin
       (machine compiled)
       form
       (Heading.fromToolpath (toolpath compiled))
-      (Frame.start (program (punched compiled)))
+      (program (punched compiled))
       [Text.pack (unlines text)] of
       Left _ -> False
       Right reading -> Proof.isProven (Compile.proveGcode form (Just evaluated) compiled reading)
