@@ -14,6 +14,7 @@ import Base.Region qualified as Region
 import Compile (Compiled, Punched (..))
 import Compile qualified
 import Data.IntMap.Strict qualified as IntMap
+import Data.Map.Strict qualified as Map
 import Data.Maybe (fromMaybe)
 import Data.Text (Text)
 import Data.Text qualified as Text
@@ -62,7 +63,7 @@ readAlone machine form file = case Run.run form Nothing 1 (fileText file) of
       ( Region.fromText (fileName file) (fileText file),
         FaultReport.toReport (regionFrom (fileText file) 0) fault
       )
-  Right steps -> Right (ToFrames.reading machine Nothing Nothing 0 steps)
+  Right steps -> Right (ToFrames.reading machine Nothing (ToFrames.FirstTool Nothing Map.empty) 0 steps)
 
 -- | Lines of a file in a range, each with its number and the frames that are read from it, and the
 -- unit of the range with the count of these units in the file.

@@ -13,9 +13,16 @@ import Base.Name (Name (..))
 import Base.Quantity (Mm (..), times)
 import Base.Region (Located (..))
 import Data.Containers.ListUtils (nubOrdOn)
+import Data.List.NonEmpty qualified as NonEmpty
+import Data.Map.Strict (Map)
+import Data.Map.Strict qualified as Map
+import Data.Set (Set)
+import Data.Set qualified as Set
 import Data.Text (Text)
+import Geometry.Segment qualified as Segment
+import Geometry.Vec qualified as Vec
 import Machine.ProgramForm (ProgramForm (..), Retract (..))
-import Part.Part (Cutter)
+import Part.Part (Cutter, Milling)
 import Part.Part qualified as Part
 import Toolpath.Toolpath (Toolpath)
 import Toolpath.Toolpath qualified as Toolpath
@@ -37,7 +44,13 @@ data FileHeading = FileHeading
     safeHeight :: Maybe Mm,
     -- | height in mm from which on rapid moves pass over everything
     freeHeight :: Mm,
-    isSpindleByHand :: Bool
+    isSpindleByHand :: Bool,
+    -- | tools by their numbers
+    cutters :: Map Int Cutter,
+    -- | numbers of the passes that turn the inside of the part
+    insidePasses :: Set Int,
+    -- | the turnings of the program
+    turnings :: [Milling]
   }
   deriving stock (Eq, Show)
 
@@ -54,17 +67,29 @@ fromToolpath path =
       toolList = nubOrdOn fst (first <> changed),
       safeHeight = value <$> Toolpath.safeHeight setup,
       freeHeight = highestClearance path,
-      isSpindleByHand = or [True | Part.SpindleByHand <- commands]
+      isSpindleByHand = or [True | Part.SpindleByHand <- commands],
+      cutters = Map.fromList (numbered <> [(n, c) | Part.ChangeTool n c <- commands]),
+      insidePasses =
+        Set.fromList
+          [ n
+            | (n, job) <- turned,
+              isBelow job
+          ],
+      turnings = [job | (_, job) <- turned]
     }
   where
     setup = Toolpath.setup path
-    commands = [value c | Toolpath.Commanding c <- Toolpath.blocks path]
-    firstTool = value <$> Toolpath.firstToolNumber setup
-    first =
-      [ (n, cutterText cutter)
-        | Just n <- [firstTool],
-          Just cutter <- [Toolpath.firstCutter setup]
+    blocks = Toolpath.blocks path
+    turned =
+      [ (n, job)
+        | (n, Toolpath.Cutting {Toolpath.job = Located _ job}) <-
+            zip (Toolpath.passNumbers blocks) blocks,
+          Part.work job == Part.Turned
       ]
+    commands = [value c | Toolpath.Commanding c <- blocks]
+    firstTool = value <$> Toolpath.firstToolNumber setup
+    numbered = [(n, c) | Just n <- [firstTool], Just c <- [Toolpath.firstCutter setup]]
+    first = [(n, cutterText c) | (n, c) <- numbered]
     changed = [(n, cutterText cutter) | Part.ChangeTool n cutter <- commands]
 
 -- | Safe height in mm on a control that needs one: that of the program, or else that of the
@@ -74,6 +99,19 @@ safeHeightOn form heading = case retract form of
   SafeHeight own -> maybe own Just (safeHeight heading)
   MachineHeight _ -> Nothing
   ReferencePoint -> Nothing
+
+-- | Test that a turning cuts from below its profile, towards larger radii.
+isBelow :: Milling -> Bool
+isBelow job = case value (Part.side job) of
+  Part.Inside -> True
+  Part.Outside -> False
+  Part.On -> False
+  Part.LeftSide -> finish < begin
+  Part.RightSide -> finish > begin
+  where
+    elements = Part.elements (Part.contour job)
+    begin = Vec.x (Segment.start (Part.segment (NonEmpty.head elements)))
+    finish = Vec.x (Segment.end (Part.segment (NonEmpty.last elements)))
 
 -- | Clearance heights of the machining statements.
 clearances :: Toolpath -> [Mm]
@@ -101,6 +139,7 @@ cutterText cutter = case Part.kind cutter of
   Part.DovetailCutter -> "dovetail, diameter " <> diameter
   Part.BladeCutter _ -> "blade, diameter " <> diameter
   Part.DrillingCutter -> "drill, diameter " <> diameter
-  Part.TurningCutter -> "turning tool, nose radius " <> Decimal.mm (Part.cutterRadius cutter)
+  Part.TurningCutter -> "turning tool, nose radius " <> Decimal.mm (Part.cutterRadius cutter) <> tip
   where
+    tip = maybe "" (\n -> ", tip " <> Decimal.whole n) (Part.tip cutter)
     diameter = Decimal.mm (times 2 (Part.cutterRadius cutter))

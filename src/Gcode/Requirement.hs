@@ -17,6 +17,7 @@ import Frame.Frame (FrameProgram (FrameProgram), PlannedFrame (frame))
 import Frame.Frame qualified as Frame
 import Gcode.Heading (FileHeading (..))
 import Gcode.Heading qualified as Heading
+import Gcode.LatheRequirement qualified as LatheRequirement
 import Gcode.Writer qualified as Writer
 import Geometry.Segment qualified as Segment
 import Geometry.Vec qualified as Vec
@@ -37,6 +38,7 @@ refusals machine form heading path program =
     <> lowStart machine path program
     <> toolErrors machine form heading path
     <> safeErrors machine form heading path program
+    <> LatheRequirement.refusals machine form path
     <> [boxError machine region | BoxPath <- [rapidPath form], region <- take 1 (boxMoves path)]
 
 machineName :: Machine -> Text
@@ -143,7 +145,11 @@ toolErrors machine form heading path =
                      \number of the tool."
               else "Each tool has a file of its own, with the number of the tool in its name."
           ],
-        hints = ["Write the number before the tool, as in ‘tool 1 mill(diameter 8 mm)’."]
+        hints =
+          [ "Write the number before the tool, as in ‘tool 1 "
+              <> maybe "mill(diameter 8 mm)" (const "turn(nose 0.8 mm, tip 2)") (lathe form)
+              <> "’."
+          ]
       }
     | ProgramForm.changesTools (dialect form) || not (null (toolOrder heading)),
       isNothing (firstTool heading)

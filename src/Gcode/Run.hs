@@ -26,7 +26,7 @@ import Gcode.Block
 import Gcode.Dialect
 import Gcode.ModalState
 import Geometry.Carrier (Sense (..))
-import Machine.ProgramForm (Dialect (..), ProgramForm (..), Retract (..))
+import Machine.ProgramForm (Dialect (..), Lathe (..), ProgramForm (..), Retract (..))
 
 -- | One action, with the state in which it happens.
 data Step = Step
@@ -124,7 +124,7 @@ runBlock form now b = do
   when (isEnded now && not (null (gcodeWords b))) (faultAt b 1 BehindEnd)
   before <- modesBefore s (modal now)
   (changed, changeSteps) <- toolChange s now {modal = before}
-  let running = modesBehind s changed
+  let running = modesBehind form s changed
   dwelt <- dwellOf form s
   (moved, motionSteps) <- motionOf form s running
   let stopSteps =
@@ -253,8 +253,8 @@ toolChange s now
 
 -- | The modes that are set after a tool change and before the motion. A change of the zero of the
 -- work coordinates makes the position unknown.
-modesBehind :: Sorted -> Running -> Running
-modesBehind s now = now {modal = changed, place = placeAfter m changed (place now)}
+modesBehind :: ProgramForm -> Sorted -> Running -> Running
+modesBehind form s now = now {modal = changed, place = placeAfter form m changed (place now)}
   where
     n = lineNumber (block s)
     m = modal now
@@ -319,17 +319,20 @@ motionAfter s m
 
 -- | The position in work coordinates after a change of the state from @before@ to @after@: unknown
 -- where the zero of the coordinates has changed.
-placeAfter :: ModalState -> ModalState -> ToolPlace -> ToolPlace
-placeAfter before after p
+placeAfter :: ProgramForm -> ModalState -> ModalState -> ToolPlace -> ToolPlace
+placeAfter form before after p
   | valueOf (workOffset after) /= valueOf (workOffset before) =
     withoutHeight {placeX = Anywhere, placeY = Anywhere}
-  | valueOf (toolLength after) /= valueOf (toolLength before) = withoutHeight
+  | valueOf (toolLength after) /= valueOf (toolLength before) =
+    -- The tool table of a lathe has a length along X too.
+    if isJust (lathe form) then withoutHeight {placeX = moved (placeX p)} else withoutHeight
   | otherwise = p
   where
-    withoutHeight = case placeZ p of
-      At _ -> p {placeZ = Anywhere}
-      Retracted -> p
-      Anywhere -> p
+    withoutHeight = p {placeZ = moved (placeZ p)}
+    moved c = case c of
+      At _ -> Anywhere
+      Retracted -> Retracted
+      Anywhere -> Anywhere
 
 -- | Value in mm of a number, in the units of the state.
 mmOfNumber :: ModalState -> GcodeNumber -> Double
@@ -413,6 +416,11 @@ targetOf form s now = ToolPlace <$> along 'X' placeX <*> along 'Y' placeY <*> al
         MachineHeight (Mm h) <- retract form,
         isJust (valueOf (units m)) || digits k == 0,
         abs (picometres (picometresOf m k) - h) < 1.0e-6 =
+        Right Retracted
+      | c == 'X',
+        Just Lathe {crossRetract = Mm h} <- lathe form,
+        isJust (valueOf (diameters m)),
+        abs (picometres (value c k) - h) < 1.0e-6 =
         Right Retracted
       | otherwise = Right Anywhere
 

@@ -9,6 +9,7 @@
 module Gcode.ToFrames
   ( GcodeReading (..),
     ReadFrame (..),
+    FirstTool (..),
     reading,
   )
 where
@@ -16,8 +17,11 @@ where
 import Base.PulseVector (Pulses2 (..), Pulses3 (..))
 import Base.Quantity (Mm (..), Pulses (..))
 import Base.Region (Located (Located), Region (Region))
+import Data.Bifunctor (first)
 import Data.List (foldl')
-import Data.Maybe (fromMaybe, isNothing)
+import Data.Map.Strict (Map)
+import Data.Map.Strict qualified as Map
+import Data.Maybe (fromMaybe, isJust, isNothing)
 import Data.Text qualified as Text
 import Frame.Command (Pending (..))
 import Frame.Command qualified as Command
@@ -46,6 +50,10 @@ data GcodeReading = GcodeReading
 data ReadFrame = ReadFrame {readFrame :: Frame, readFrom :: Int}
   deriving stock (Eq, Show)
 
+-- | Number of the tool that the program has loaded before the file, and for each tool the offset in
+-- pulses from its centre to the point that the control leads; 0 for tools that are not in the list.
+data FirstTool = FirstTool {firstNumber :: Maybe Int, tipsOfTools :: Map Int Pulses3}
+
 -- | State of the conversion.
 data Converting = Converting
   { -- | last known position in pulses
@@ -58,15 +66,16 @@ data Converting = Converting
     waitedFor :: Maybe Int,
     -- | the latest frame first
     made :: [ReadFrame],
+    -- | offset in pulses of the point that the control leads from the centre of each tool
+    tips :: Map Int Pulses3,
     lost :: Double
   }
 
 -- | Frames of the actions of a file. @level@ is the height in pulses from which on the tool is
 -- above everything; Nothing if no height in work coordinates is. @start@ is the position of the
--- program before its first frame, and @first@ the number of the tool that the program has loaded
--- then.
-reading :: Machine -> Maybe Pulses -> Maybe Int -> Pulses3 -> [Step] -> GcodeReading
-reading machine level first start list =
+-- program before its first frame.
+reading :: Machine -> Maybe Pulses -> FirstTool -> Pulses3 -> [Step] -> GcodeReading
+reading machine level FirstTool {firstNumber, tipsOfTools} start list =
   GcodeReading
     { readFrames = reverse (made end),
       steps = list,
@@ -81,14 +90,15 @@ reading machine level first start list =
           pending = Nothing,
           waitedFor = Nothing,
           made = [],
+          tips = tipsOfTools,
           lost = 0
         }
-    end = foldl' (converted machine level first) begin list
+    end = foldl' (converted machine level firstNumber) begin list
 
 -- | Converts one action.
 converted :: Machine -> Maybe Pulses -> Maybe Int -> Converting -> Step -> Converting
-converted machine level first c step = case action step of
-  Travels travel -> travelled machine level (withCommands machine first step) c step travel
+converted machine level loaded c step = case action step of
+  Travels travel -> travelled machine level (withCommands machine loaded step) c step travel
   Changes _ -> c
   Dwells t
     | isStart, waitedFor c /= started -> c {waitedFor = started}
@@ -111,7 +121,7 @@ converted machine level first c step = case action step of
         machine
         step
         (Command.translated machine (Located (Region 0 0) command))
-        (withCommands machine first step c)
+        (withCommands machine loaded step c)
 
 -- | Converts a motion. @switched@ adds the commands that the state of the motion shows.
 travelled ::
@@ -122,26 +132,35 @@ travelled ::
   Step ->
   Travel ->
   Converting
-travelled machine level switched c step travel = case inPulses machine (to travel) of
+travelled machine level switched c step travel = case centreAt (to travel) of
   Just (target, off)
     | maybe False (height target >=) level -> c {isAway = True}
-    | isAway c || isNothing (inPulses machine (from travel)) ->
+    | isAway c || isNothing (centreAt (from travel)) ->
       let c' = switched c {isAway = False, lost = max (lost c) off}
-       in foldl' (addMotion (line step)) c' (joining (here c') target)
+       in foldl' (addMotion (line step)) c' (joining machine (here c') target)
     | otherwise ->
       addMotion
         (line step)
         (switched c {lost = max (lost c) off})
-        (frameOf machine step travel (here c) target)
+        (frameOf machine step (centred travel) (here c) target)
   Nothing -> c {isAway = True}
   where
     height (Pulses3 _ _ z) = z
+    tip = fromMaybe 0 (valueOf (toolInSpindle (state step)) >>= (`Map.lookup` tips c))
+    centreAt place = first (subtract tip) <$> inPulses machine place
+    centred t = t {about = fmap (shiftedBy machine tip) (about t)}
+
+-- | Centre of an arc in picometres, without an offset in pulses.
+shiftedBy :: Machine -> Pulses3 -> (Int, Int) -> (Int, Int)
+shiftedBy machine (Pulses3 dx dy _) (i, j) = (i - along X dx, j - along Y dy)
+  where
+    along axis (Pulses n) = n * pulseOf machine axis
 
 -- | Adds the commands that lead to the state of a step.
 withCommands :: Machine -> Maybe Int -> Step -> Converting -> Converting
-withCommands machine first step c = foldl' add c {commanded = now} groups
+withCommands machine loaded step c = foldl' add c {commanded = now} groups
   where
-    now = stateOf first (state step)
+    now = stateOf loaded (state step)
     groups = CommandState.between machine (commanded c) now
     add c' ws = added machine step (Command.Translation ws False [] []) c'
 
@@ -155,10 +174,10 @@ added machine step translation c =
 -- | State of tool, spindle and coolant. Unknown parts count as off; "Verify.ControlState" finds
 -- them. The tool is Nothing as long as it is the first one.
 stateOf :: Maybe Int -> ModalState -> CommandState
-stateOf first m =
+stateOf loaded m =
   CommandState
     { tool = case valueOf (toolInSpindle m) of
-        t | t == first || isNothing t -> Nothing
+        t | t == loaded || isNothing t -> Nothing
         t -> t,
       CommandState.spindle = case valueOf (Gcode.ModalState.spindle m) of
         Just (SpindleTurning sense) -> Just (senseOf sense, round <$> valueOf (speed m))
@@ -192,11 +211,15 @@ addMotion n c f
         made = ReadFrame f {commands = maybe [] given (pending c)} n : made c
       }
 
--- | Rapid frames from one position to another: at the higher of the two heights.
-joining :: Pulses3 -> Pulses3 -> [Frame]
-joining a@(Pulses3 ax ay az) b@(Pulses3 bx by bz) =
-  map rapidFrame (differences [a, Pulses3 ax ay top, Pulses3 bx by top, b])
+-- | Rapid frames from one position to another: at the higher of the two heights; on a lathe at the
+-- larger of the two radii.
+joining :: Machine -> Pulses3 -> Pulses3 -> [Frame]
+joining machine a@(Pulses3 ax ay az) b@(Pulses3 bx by bz)
+  | isJust (Machine.programForm machine >>= Machine.lathe) =
+    map rapidFrame (differences [a, Pulses3 ax outer az, Pulses3 bx outer bz, b])
+  | otherwise = map rapidFrame (differences [a, Pulses3 ax ay top, Pulses3 bx by top, b])
   where
+    outer = max ay by
     top = max az bz
     differences ps = [q - p | (p, q) <- zip ps (drop 1 ps), p /= q]
     rapidFrame d =
@@ -252,9 +275,14 @@ inPulses machine place = do
 nearest :: Machine -> Axis -> Int -> (Pulses, Double)
 nearest machine axis p = (Pulses n, abs (picometres (p - n * pulse)))
   where
-    Mm resolution = Machine.resolutionOf machine axis
-    pulse = max 1 (round (resolution * 1.0e9))
+    pulse = pulseOf machine axis
     n = (2 * p + pulse) `div` (2 * pulse)
+
+-- | Size of a pulse of an axis in picometres.
+pulseOf :: Machine -> Axis -> Int
+pulseOf machine axis =
+  let Mm resolution = Machine.resolutionOf machine axis
+   in max 1 (round (resolution * 1.0e9))
 
 -- | Letter of the words of an axis.
 letterOf :: Machine -> Axis -> Char

@@ -2,7 +2,8 @@
 -- beginning, the motions, safe changes of the tool, and a safe end.
 --
 -- /Away/ means that the tool is at the retract height. From there x and y go to their position, and
--- then z comes down.
+-- then z comes down. On a lathe the tool is away when X and Z are at their retract positions. X
+-- leaves the work first and comes back last; after the inside of a part was turned, it is Z.
 module Gcode.Writer
   ( ToolFile (..),
     write,
@@ -16,14 +17,17 @@ import Base.Quantity (Feed (..), Mm (..), Pulses (..), Seconds (..), minus, trav
 import Data.Char (isAscii, isPrint)
 import Data.List (foldl')
 import Data.Maybe (fromMaybe, isJust, listToMaybe, mapMaybe, maybeToList)
+import Data.Map.Strict qualified as Map
+import Data.Set qualified as Set
 import Data.Text (Text)
 import Data.Text qualified as Text
 import Frame.Command qualified as Command
-import Frame.Frame (Frame (..), FrameMotion (..), FrameProgram (..), PlannedFrame (..))
+import Frame.Frame (Frame (..), FrameMotion (..), FrameProgram (..), PlannedFrame (..), passNumber)
 import Frame.Frame qualified as Frame
 import Gcode.Dialect qualified as Dialect
 import Gcode.Heading (FileHeading (..))
 import Gcode.Heading qualified as Heading
+import Gcode.ToolTip qualified as ToolTip
 import Geometry.Carrier qualified as Carrier
 import Geometry.Segment qualified as Segment
 import Machine.Machine
@@ -41,7 +45,7 @@ import Machine.Machine
     Word' (address),
   )
 import Machine.Machine qualified as Machine
-import Machine.ProgramForm (Dialect (..), Retract (..))
+import Machine.ProgramForm (Dialect (..), Lathe (..), Retract (..), XMeaning (..))
 import Machine.ProgramForm qualified as ProgramForm
 
 -- | A file, and the number of its tool if each tool has a file of its own.
@@ -58,7 +62,11 @@ data Writing = Writing
     -- | true from a change of the tool on, which switches the coolant off, until it is on again
     isCoolantPaused :: Bool,
     -- | true if the spindle turns
-    turns :: Bool
+    turns :: Bool,
+    -- | from the centre of the tool to the point that the control leads
+    tipOffset :: Pulses3,
+    -- | true after a cut on the inside of a turned part
+    isInside :: Bool
   }
 
 -- | Files of a program. @bound@ is the largest deviation in mm from the path that the control may
@@ -71,7 +79,7 @@ write machine form heading bound program =
   where
     context = Context {machine, form, heading, bound}
     isOneFile = ProgramForm.changesTools (dialect form)
-    frames = dropEnd (length (Command.finalFrames machine)) (map frame (plannedFrames program))
+    frames = dropEnd (length (Command.finalFrames machine)) (plannedFrames program)
     whole = FilePart (firstTool heading) (start program) False frames
     parts = if isOneFile then [whole] else byTool machine whole
     dropEnd n xs = take (length xs - n) xs
@@ -82,22 +90,22 @@ data FilePart = FilePart
   { toolOf :: Maybe Int,
     begins :: Pulses3,
     isCooled :: Bool,
-    framesOf :: [Frame]
+    framesOf :: [PlannedFrame]
   }
 
 -- | Parts of a program with one tool each.
 byTool :: Machine -> FilePart -> [FilePart]
-byTool machine part = case span (null . changesIn) (framesOf part) of
+byTool machine part = case span (null . changesIn . frame) (framesOf part) of
   (_, []) -> [part]
   (own, change : more) ->
     part {framesOf = own} :
     byTool
       machine
       FilePart
-        { toolOf = listToMaybe (changesIn change),
-          begins = begins part + sum (map increment own),
-          isCooled = last (isCooled part : coolantIn own),
-          framesOf = withoutChange change : more
+        { toolOf = listToMaybe (changesIn (frame change)),
+          begins = begins part + sum (map (increment . frame) own),
+          isCooled = last (isCooled part : coolantIn (map frame own)),
+          framesOf = change {frame = withoutChange (frame change)} : more
         }
   where
     changesIn f = [n | ToTool n <- actionsOf machine f]
@@ -129,10 +137,10 @@ fileLines context part =
     body =
       concat
         [ modeLines context,
-          retractLines context,
+          retractLines context False,
           toolLines context (toolOf part),
           motions,
-          retractLines context,
+          retractLines context (isInside final),
           ["M5" | not (isSpindleByHand (heading context))],
           ["M9" | hasCoolant final],
           finishLines context
@@ -152,7 +160,9 @@ fileLines context part =
           feedWritten = Nothing,
           hasCoolant = isCooled part,
           isCoolantPaused = isCooled part,
-          turns = False
+          turns = False,
+          tipOffset = tipOf context (toolOf part),
+          isInside = False
         }
 
 -- | Position at which the tool comes down first: after a rapid move straight up, if that is the
@@ -174,7 +184,7 @@ headTexts context@Context {machine, form, heading} part =
   [("part", partName heading <> (if title == "" then "" else ", " <> title))]
     <> [("machine", name)]
     <> [("remark", remark form) | remark form /= ""]
-    <> [("time", timeText (timeOf machine (begins part) (framesOf part)))]
+    <> [("time", timeText (timeOf machine (begins part) (map frame (framesOf part))))]
     <> [ ("tool " <> Decimal.whole n, text)
          | (n, text) <- toolList heading,
            ProgramForm.changesTools (dialect form) || Just n == toolOf part
@@ -206,7 +216,7 @@ operatorTexts form heading =
 marlinTexts :: Context -> FilePart -> [Text]
 marlinTexts Context {machine, heading} part =
   ["CNC_COORDINATE_SYSTEMS and CNC_WORKSPACE_PLANES"]
-    <> ["ARC_SUPPORT" | any isArc (framesOf part)]
+    <> ["ARC_SUPPORT" | any (isArc . frame) (framesOf part)]
     <> ["SPINDLE_FEATURE with CUTTER_POWER_UNIT RPM" | not (isSpindleByHand heading)]
     <> ["COOLANT_CONTROL with COOLANT_FLOOD" | isCooled part || not (null cooling)]
     <> ["a display or EMERGENCY_PARSER, for the stops" | not (null stops)]
@@ -214,7 +224,7 @@ marlinTexts Context {machine, heading} part =
     isArc f = case motion f of
       Circular _ -> True
       _ -> False
-    actions = concatMap (actionsOf machine) (framesOf part)
+    actions = concatMap (actionsOf machine . frame) (framesOf part)
     cooling = [() | CoolantSwitch _ <- actions]
     stops = [() | OtherCommand (name, _) <- actions, name `elem` stopNames]
     stopNames = map commandName (programStop (Machine.commandWords machine))
@@ -267,24 +277,51 @@ commentLine Context {form} (word, text) = case dialect form of
 modeLines :: Context -> [Text]
 modeLines Context {form, heading, bound} = case dialect form of
   LinuxCnc ->
-    ["G21 G17 G90 G91.1 G94 G8 G40 G49 G80", offset, maybe "G61" blended bound]
+    [ "G21 " <> plane <> " G90 G91.1 G94 " <> meaning <> " G40 G49 G80",
+      offset,
+      maybe "G61" blended bound
+    ]
   Fanuc -> ["G21 G17 G90 G94 G40 G49 G80", offset, "G61"]
   Grbl -> ["G21 G17 G90 G91.1 G94 G40 G49 G80", offset]
   Marlin -> ["G21", "G17", "G90", offset]
   where
+    (plane, meaning) = case meaningOfX <$> lathe form of
+      Nothing -> ("G17", "G8")
+      Just XRadius -> ("G18", "G8")
+      Just XDiameter -> ("G18", "G7")
     offset = "G" <> Decimal.whole (workOffset heading)
     blended (Mm p) = "G64 P" <> Decimal.fixed 3 p <> " Q0"
 
--- | Lines that take the tool to the retract height: z alone, upwards.
-retractLines :: Context -> [Text]
-retractLines context@Context {form, heading} = case retract form of
-  MachineHeight (Mm h) -> ["G53 G0 Z" <> Decimal.short 3 h]
+-- | Lines that take the tool to the retract height: z alone, upwards. On a lathe X and Z go one
+-- after the other to their retract positions; Z is first if the inside of the part was turned.
+retractLines :: Context -> Bool -> [Text]
+retractLines context@Context {form, heading} inside = case retract form of
+  MachineHeight (Mm h) ->
+    inOrder inside (crossLines <> ["G53 G0 Z" <> Decimal.short 3 h])
   ReferencePoint -> ["G91 G28 Z0.", "G90"]
   SafeHeight _ -> ["G0 " <> height <> rapidFeed context]
   where
     height = case Heading.safeHeightOn form heading of
       Just (Mm z) -> "Z" <> Decimal.fixed 3 z
       Nothing -> ""
+    crossLines =
+      [ "G53 G0 X" <> Decimal.short 3 (xFactor form * x)
+        | Just Lathe {crossRetract = Mm x} <- [lathe form]
+      ]
+
+-- | Lines of a lathe, those of X first, in the order in which the tool leaves the work.
+inOrder :: Bool -> [Text] -> [Text]
+inOrder inside ls = if inside then reverse ls else ls
+
+-- | Factor of the words of X: 2 on a lathe whose words are diameters.
+xFactor :: Num a => ProgramForm -> a
+xFactor form = if (meaningOfX <$> lathe form) == Just XDiameter then 2 else 1
+
+-- | Offset of the point that the control leads from the centre of a tool, in pulses.
+tipOf :: Context -> Maybe Int -> Pulses3
+tipOf Context {machine, form, heading} tool = case lathe form of
+  Nothing -> 0
+  Just _ -> maybe 0 (ToolTip.offset machine) (tool >>= (`Map.lookup` cutters heading))
 
 -- | Lines that put a tool into the spindle and take its length.
 toolLines :: Context -> Maybe Int -> [Text]
@@ -313,14 +350,18 @@ commandText machine (name, n) = scaledText machine (Machine.Command name) (Pulse
 -- Frames ------------------------------------------------------------------------------------------
 
 -- | Lines of the frames, and the state after them.
-frameLines :: Context -> Writing -> [Frame] -> (Writing, [Text])
+frameLines :: Context -> Writing -> [PlannedFrame] -> (Writing, [Text])
 frameLines context now frames = case frames of
   [] -> (now, [])
-  f : more ->
+  p@PlannedFrame {frame = f} : more ->
     let (commanded, before) = actionLines context now (actionsOf (machine context) f)
         (moved, own) = motionLines context commanded f
-        (final, behind) = frameLines context moved more
+        (final, behind) = frameLines context moved {isInside = isInsideAt p moved} more
      in (final, before <> own <> behind)
+  where
+    isInsideAt p now' = case passNumber (role p) of
+      Just n -> Set.member n (insidePasses (heading context))
+      Nothing -> isInside now'
 
 -- | Meaning of the commands of a frame.
 data ControlAction
@@ -373,8 +414,14 @@ actionLines context now actions = case actions of
 actionLine :: Context -> Writing -> ControlAction -> (Writing, [Text])
 actionLine context@Context {machine, form, heading} now action = case action of
   ToTool n ->
-    ( now {isAway = True, turns = False, isCoolantPaused = hasCoolant now, feedWritten = Nothing},
-      retractLines context
+    ( now
+        { isAway = True,
+          turns = False,
+          isCoolantPaused = hasCoolant now,
+          feedWritten = Nothing,
+          tipOffset = tipOf context (Just n)
+        },
+      retractLines context (isInside now)
         <> ["M5" | not (isSpindleByHand heading)]
         <> ["M9" | hasCoolant now]
         <> toolLines context (Just n)
@@ -398,7 +445,7 @@ dwellLine form (Seconds t) = "G4 P" <> Decimal.short 3 (t / Dialect.dwellPerUnit
 
 -- | Lines of the motion of a frame. A tool that is away comes down first.
 motionLines :: Context -> Writing -> Frame -> (Writing, [Text])
-motionLines context@Context {machine, form} now f
+motionLines context@Context {form} now f
   | not (Frame.isMoving f) = (now, [])
   -- The tool comes from above, so it comes down to the end of the move.
   | isAway now && isRise f = (moved, descentLines context now {at = end})
@@ -406,7 +453,7 @@ motionLines context@Context {machine, form} now f
   where
     end = at now + increment f
     own =
-      motionText machine end f <> case motion f of
+      motionText context (end + tipOffset now) f <> case motion f of
         Rapid -> rapidFeed context
         _ -> feedText
     feedText
@@ -423,19 +470,21 @@ motionLines context@Context {machine, form} now f
             _ -> Just (feedCode f)
         }
 
--- | Lines that take a tool from the retract height to its position: x and y first, then z.
+-- | Lines that take a tool from the retract height to its position: x and y first, then z. On a lathe
+-- the axis that left the work first comes back last.
 descentLines :: Context -> Writing -> [Text]
-descentLines context@Context {machine} now =
+descentLines context@Context {form} now =
   ["M8" | isCoolantPaused now]
-    <> [ "G0 " <> Text.unwords (mapMaybe here [X, Y]) <> rapidFeed context,
-         "G0 " <> fromMaybe "" (here Z) <> rapidFeed context
+    <> [ "G0 " <> Text.unwords (mapMaybe here axes) <> rapidFeed context
+         | axes <- if isJust (lathe form) then latheAxes else [[X, Y], [Z]]
        ]
   where
-    here = axisText machine (at now)
+    latheAxes = if isInside now then [[Y], [X]] else [[X], [Y]]
+    here = axisText context (at now + tipOffset now)
 
 -- | Words of the motion of a frame to a position, without its feed.
-motionText :: Machine -> Pulses3 -> Frame -> Text
-motionText machine end f = Text.unwords (motionWord : axisWords <> centreWords)
+motionText :: Context -> Pulses3 -> Frame -> Text
+motionText context@Context {machine} end f = Text.unwords (motionWord : axisWords <> centreWords)
   where
     motionWord = case motion f of
       Rapid -> "G0"
@@ -446,7 +495,7 @@ motionText machine end f = Text.unwords (motionWord : axisWords <> centreWords)
       [ word
         | axis <- [X, Y, Z],
           component axis (increment f) /= 0 || isFullCircle && axis /= Z,
-          word <- maybeToList (axisText machine end axis)
+          word <- maybeToList (axisText context end axis)
       ]
     isFullCircle = increment f == 0
     centreWords = case motion f of
@@ -472,11 +521,13 @@ component axis (Pulses3 x y z) = case axis of
   Z -> z
 
 -- | Word of an axis at a position in pulses; Nothing if the machine lacks the axis.
-axisText :: Machine -> Pulses3 -> Axis -> Maybe Text
-axisText machine position axis
+axisText :: Context -> Pulses3 -> Axis -> Maybe Text
+axisText Context {machine, form} position axis
   | isJust (Machine.wordFor machine (Along axis)) =
-    Just (scaledText machine (Along axis) (component axis position))
+    Just (scaledText machine (Along axis) (factor * component axis position))
   | otherwise = Nothing
+  where
+    factor = if axis == Y then xFactor form else 1
 
 -- | Word with its number in pulses, the last decimal of which is a pulse.
 scaledText :: Machine -> Content -> Pulses -> Text

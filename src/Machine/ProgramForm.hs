@@ -5,6 +5,8 @@ module Machine.ProgramForm
     Dialect (..),
     Retract (..),
     RapidPath (..),
+    Lathe (..),
+    XMeaning (..),
     takesLengths,
     changesTools,
     hasPathMode,
@@ -21,6 +23,8 @@ data ProgramForm = ProgramForm
     -- | time until the spindle turns at its speed; the control does not wait for it by itself
     spinUp :: Seconds,
     rapidPath :: RapidPath,
+    -- | Nothing for a milling machine
+    lathe :: Maybe Lathe,
     -- | largest count of characters in a line, without its end
     mostCharacters :: Int,
     -- | place of the tool change: x and y in machine coordinates, in mm; Nothing for a change where
@@ -54,6 +58,23 @@ data RapidPath
     StraightPath
   | -- | any path in the box between the two ends: one axis may arrive before the other
     BoxPath
+  deriving stock (Eq, Show)
+
+-- | Words of a lathe: x of the part is written Z, and y, the radius, is written X.
+data Lathe = Lathe
+  { -- | position in machine coordinates, in mm from the axis of the spindle, at which the tool is
+    -- outside of the work: the word X alone goes there. 'retract' is that of Z
+    crossRetract :: Mm,
+    meaningOfX :: XMeaning
+  }
+  deriving stock (Eq, Show)
+
+-- | Meaning of the number of a word X on a lathe. The centres of arcs are radii in both cases.
+data XMeaning
+  = -- | the distance from the axis of the spindle (G8)
+    XRadius
+  | -- | twice the distance (G7)
+    XDiameter
   deriving stock (Eq, Show)
 
 -- | True if the control takes the length of a tool from its tool table (G43). Otherwise the

@@ -8,9 +8,10 @@ where
 import Base.Quantity (Mm (..), Seconds (..))
 import Base.Region (Located (..), Region)
 import Base.Result (Result)
-import Machine.Error (Error (..))
+import Data.Maybe (isNothing)
+import Machine.Error (Error (..), FrameFault (..))
 import Machine.FrameFromText (quotedText)
-import Machine.Machine (CommandWords (..), Machine)
+import Machine.Machine (Axis (..), CommandWords (..), Content (..), Machine)
 import Machine.Machine qualified as Machine
 import Machine.ProgramForm
 import Machine.Section
@@ -25,13 +26,14 @@ programForm s = do
     <*> required "retract" "retract machine 0 mm" retractFrom section
     <*> required "spin-up" "spin-up 3 s" spinUpFrom section
     <*> required "rapid" "rapid straight" rapidFrom section
+    <*> optional "cross-slide" Nothing (fmap Just . latheFrom) section
     <*> required "characters" "characters 250" charactersFrom section
     <*> optional "change-at" Nothing (fmap Just . placeFrom) section
     <*> optional "line-numbers" Nothing (fmap Just . stepFrom) section
     <*> optional "remark" "" quotedText section
     <* allowKeys
-      ( ["dialect", "retract", "spin-up", "rapid", "characters", "change-at", "line-numbers"]
-          <> ["remark"]
+      ( ["dialect", "retract", "spin-up", "rapid", "cross-slide", "characters", "change-at"]
+          <> ["line-numbers", "remark"]
       )
       []
       section
@@ -74,7 +76,20 @@ retractFrom =
         | v > 0 && v <= 10000 -> Just (pure (SafeHeight (Just (Mm v))))
       _ -> Nothing
 
--- | Commands that every program of this form needs.
+-- | Reads how a lathe leaves the work.
+latheFrom :: Statement -> Result w Error Lathe
+latheFrom = withArguments ["cross-slide 0 mm diameters", "cross-slide 0 mm radii"] form
+  where
+    form :: [Argument] -> Maybe (Result w Error Lathe)
+    form args = case map value args of
+      [Number _ v, Word "mm", Word "diameters"] -> position v XDiameter
+      [Number _ v, Word "mm", Word "radii"] -> position v XRadius
+      _ -> Nothing
+    position v meaning
+      | abs v <= 10000 = Just (pure (Lathe (Mm v) meaning))
+      | otherwise = Nothing
+
+-- | Commands that every program of this form needs, and the words of a lathe.
 check :: Machine -> Region -> ProgramForm -> [Error]
 check machine region form =
   [ Missing region "the commands" name example
@@ -84,6 +99,27 @@ check machine region form =
           ("tool-change", "tool-change { set T argument … }", has toolChange || isFixed)
         ]
   ]
+    <> [ BadFrame region (Unsuited (Machine.contentName content) why)
+         | Just _ <- [lathe form],
+           (content, why, False) <-
+             [ (Along X, "On a lathe the address of x, along the spindle, is Z.", isNamed "Z" X),
+               (Along Y, "On a lathe the address of y, the radius, is X.", isNamed "X" Y),
+               (Along Z, "A lathe has the axes x and y only.", isNothing (wordOf Z))
+             ]
+       ]
+    <> [ Missing region "the program" name example
+         | Just _ <- [lathe form],
+           (name, example, False) <-
+             [ ("dialect linuxcnc", "dialect linuxcnc", dialect form == LinuxCnc),
+               ("retract machine", "retract machine 0 mm", isMachineHeight (retract form))
+             ]
+       ]
   where
+    wordOf = Machine.wordFor machine . Along
+    isNamed name axis = (Machine.address <$> wordOf axis) == Just name
+    isMachineHeight r = case r of
+      MachineHeight _ -> True
+      ReferencePoint -> False
+      SafeHeight _ -> False
     has list = not (null (list (Machine.commandWords machine)))
     isFixed = not (changesTools (dialect form))

@@ -13,7 +13,7 @@ import Base.Quantity (Mm (..))
 import Base.Region (Region)
 import Data.Maybe (isNothing)
 import Data.Text (Text)
-import Machine.ProgramForm (ProgramForm (..), Retract (..))
+import Machine.ProgramForm (Lathe (..), ProgramForm (..), Retract (..), XMeaning (..))
 import Report.Report (Report (hints, label, message, others), ReportCode, ReportPlace (..), report)
 import Report.Report qualified as Report
 
@@ -44,8 +44,10 @@ data ControlFault
     UnitsUnknown
   | -- | no line sets a mode
     ModeUnknown ControlMode
-  | -- | words of X are diameters
+  | -- | words of X are diameters, not radii
     XInDiameters
+  | -- | words of X are radii, not diameters
+    XInRadii
   | -- | the feed is per turn or the inverse of a time
     NotPerMinute
   | -- | the work offset that the program asks for, and that of the file; Nothing if it selects none
@@ -61,6 +63,11 @@ data ControlFault
     BoxMove
   | -- | z goes down before x and y have a position in work coordinates
     UnsafeDescent
+  | -- | on a lathe, X and Z move at the same time or in a wrong order to or from their retract
+    -- positions
+    LatheOrder
+  | -- | on a lathe, the way to a retract position, or back, passes through the part
+    ThroughProfile
   deriving stock (Eq, Ord, Show)
 
 -- | Mode in which the control reads numbers, or computes the path.
@@ -91,6 +98,7 @@ changesReading f = case f of
   UnitsUnknown -> True
   ModeUnknown _ -> True
   XInDiameters -> True
+  XInRadii -> True
   NotPerMinute -> True
   WrongOffset _ _ -> False
   NoBound -> False
@@ -98,6 +106,8 @@ changesReading f = case f of
   UnsafeMove -> False
   UnsafeDescent -> False
   BoxMove -> False
+  LatheOrder -> False
+  ThroughProfile -> False
 
 -- | Words of a report: its title, the label at the motion, the label at the line that set the wrong
 -- value, the reason and the remedy.
@@ -133,6 +143,7 @@ codeOf f = case f of
   UnitsUnknown -> "E0728"
   ModeUnknown _ -> "E0729"
   XInDiameters -> "E0729"
+  XInRadii -> "E0729"
   NotPerMinute -> "E0729"
   WrongOffset _ _ -> "E0730"
   NoBound -> "E0731"
@@ -140,6 +151,8 @@ codeOf f = case f of
   UnsafeMove -> "E0732"
   UnsafeDescent -> "E0732"
   BoxMove -> "E0734"
+  LatheOrder -> "E0737"
+  ThroughProfile -> "E0738"
 
 -- | Words for a fault. @isUnset@ is true if no line has set the value.
 wordsOf :: ProgramForm -> Bool -> ControlFault -> Wording
@@ -155,7 +168,7 @@ wordsOf form isUnset f = case f of
       "the tool is changed here"
       "After M6 the control keeps the length of the tool before."
   LengthOfAnother h tool -> lengthOfAnother h tool
-  WrongPlane -> wrongPlane isUnset
+  WrongPlane -> wrongPlane form isUnset
   UnitsUnknown ->
     Wording
       { title = "no line sets the units of the numbers",
@@ -164,13 +177,19 @@ wordsOf form isUnset f = case f of
         reason = kept "units",
         remedy = "Write G21 for mm or G20 for inches before the first motion."
       }
-  ModeUnknown mode -> modeUnknown mode
+  ModeUnknown mode -> modeUnknown form mode
   XInDiameters ->
     wrongMode
       descends
       "X gives diameters here"
       "The positions of the program are not diameters."
       "G8"
+  XInRadii ->
+    wrongMode
+      descends
+      "X gives radii here"
+      "The file of this lathe gives diameters."
+      "G7"
   NotPerMinute ->
     wrongMode cuts "the feed is not per minute" "The feeds of the program are per minute." "G94"
   WrongOffset wanted found -> wrongOffset wanted found
@@ -179,6 +198,8 @@ wordsOf form isUnset f = case f of
   UnsafeMove -> unsafeMove form
   UnsafeDescent -> unsafeDescent form
   BoxMove -> boxMove
+  LatheOrder -> latheOrder
+  ThroughProfile -> throughProfile
 
 -- | Labels of motions.
 cuts, descends :: Text
@@ -241,8 +262,8 @@ lengthOfAnother h tool =
         Nothing -> "Write T" <> Decimal.whole h <> " M6 before it."
     }
 
-wrongPlane :: Bool -> Wording
-wrongPlane isUnset =
+wrongPlane :: ProgramForm -> Bool -> Wording
+wrongPlane form isUnset =
   Wording
     { title =
         if isUnset
@@ -253,13 +274,17 @@ wrongPlane isUnset =
       reason =
         if isUnset
           then kept "plane"
-          else "The arcs of the part are in the plane of x and y.",
-      remedy = "Write G17 before the cut."
+          else "The arcs of the part are in the plane of " <> axes <> ".",
+      remedy = "Write " <> word <> " before the cut."
     }
+  where
+    (axes, word) = case lathe form of
+      Nothing -> ("x and y", "G17")
+      Just _ -> ("Z and X", "G18")
 
 -- | Words for a mode that no line sets.
-modeUnknown :: ControlMode -> Wording
-modeUnknown mode =
+modeUnknown :: ProgramForm -> ControlMode -> Wording
+modeUnknown form mode =
   Wording
     { title = "no line says " <> question,
       here = if mode == FeedUnit || mode == ArcCentreMode then cuts else descends,
@@ -268,22 +293,24 @@ modeUnknown mode =
       remedy
     }
   where
-    (question, remedy) = modeWords mode
+    (question, remedy) = modeWords form mode
 
 -- | The question that no line answers, and the remedy.
-modeWords :: ControlMode -> (Text, Text)
-modeWords mode = case mode of
+modeWords :: ProgramForm -> ControlMode -> (Text, Text)
+modeWords form mode = case mode of
   DistanceMode ->
     ( "whether positions are absolute or incremental",
       "Write G90 for absolute or G91 for incremental positions before this motion."
     )
-  DiameterMode -> ("whether X gives radii or diameters", "Write G8 before this motion.")
+  DiameterMode -> ("whether X gives radii or diameters", "Write " <> meaning <> " before this motion.")
   CompensationMode -> ("that cutter compensation is off", "Write G40 before this motion.")
   FeedUnit -> ("in what unit the feed is", "Write G94 before the cut.")
   ArcCentreMode ->
     ( "from where I and J are counted",
       "Write G91.1 before the arc: I and J then lead from its beginning to its centre."
     )
+  where
+    meaning = if (meaningOfX <$> lathe form) == Just XDiameter then "G7" else "G8"
 
 -- | Words for a mode that a line sets wrongly, with the word that sets it right.
 wrongMode :: Text -> Text -> Text -> Text -> Wording
@@ -380,4 +407,28 @@ boxMove =
         \the part.",
       remedy =
         "Move one axis alone, or x and y together at the clearance height or above it."
+    }
+
+latheOrder :: Wording
+latheOrder =
+  Wording
+    { title = "X and Z leave the work, or come to it, in an unsafe order",
+      here = "",
+      there = "",
+      reason =
+        "The tool is outside of the work only when X or Z is at its retract position. Until then \
+        \only one of them may move.",
+      remedy =
+        "Move X alone to its retract position by G53 G0, then Z; and back Z first, then X. In a \
+        \bore it is the reverse."
+    }
+
+throughProfile :: Wording
+throughProfile =
+  Wording
+    { title = "the tool passes through the part on its way to or from the retract position",
+      here = "",
+      there = "",
+      reason = "The way along this axis meets a turned profile.",
+      remedy = "Move the other axis first, or write ‘retract’ with a place outside of the part."
     }

@@ -13,13 +13,15 @@ where
 
 import Base.Quantity (Mm (..))
 import Data.List (foldl')
-import Data.Maybe (isNothing, mapMaybe)
+import Data.Maybe (isJust, isNothing, mapMaybe)
 import Data.Set qualified as Set
 import Gcode.ModalState
-import Gcode.Run (Action (..), Coordinate (..), ToolPlace (..), Step (..), Travel (..))
-import Machine.ProgramForm (ProgramForm (..))
+import Gcode.Run (Action (..), Coordinate (..), Step (..), ToolPlace (..), Travel (..))
+import Machine.ProgramForm (ProgramForm (..), XMeaning (..))
 import Machine.ProgramForm qualified as ProgramForm
 import Verify.ControlFault (ControlFault (..), ControlFinding (..), ControlMode (..))
+import Verify.LatheMove (LatheDemand (..))
+import Verify.LatheMove qualified as LatheMove
 
 -- | State that a program asks for in all its cuts.
 data StateDemand = StateDemand
@@ -36,7 +38,9 @@ data StateDemand = StateDemand
     -- arrive one after the other; Nothing if they move along a straight line
     boxLevel :: Maybe Int,
     -- | true if the operator switches the spindle
-    isByHand :: Bool
+    isByHand :: Bool,
+    -- | Nothing for a milling machine
+    latheDemand :: Maybe LatheDemand
   }
   deriving stock (Eq, Show)
 
@@ -59,14 +63,20 @@ firstOfEach = go Set.empty
 judged :: ProgramForm -> StateDemand -> Step -> [ControlFinding]
 judged form demand step = case action step of
   Travels travel ->
-    unsafeMoves demand step travel
+    toRetract travel
       <> (if isCut travel || isDescent travel then settled form demand step else [])
       <> (if isCut travel then cutState demand step travel else [])
   _ -> []
   where
     isCut travel = mode travel /= RapidMode
+    toRetract travel = case latheDemand demand of
+      Just lathe -> map (ControlFinding (line step) Nothing) (LatheMove.faults lathe step travel)
+      Nothing -> unsafeMoves demand step travel
     -- From the retract height, or from an unknown one, to a height in work coordinates.
-    isDescent travel = case (placeZ (from travel), placeZ (to travel)) of
+    isDescent travel
+      | isJust (latheDemand demand) = LatheMove.comesToWork travel
+      | otherwise = comesDown travel
+    comesDown travel = case (placeZ (from travel), placeZ (to travel)) of
       (At a, At b) -> maybe False (a >=) (level demand) && b < a
       (_, At b) -> maybe True (b <) (level demand)
       _ -> False
@@ -76,7 +86,7 @@ settled :: ProgramForm -> StateDemand -> Step -> [ControlFinding]
 settled form demand step =
   [finding (units m) UnitsUnknown | isNothing (valueOf (units m))]
     <> [finding (distances m) (ModeUnknown DistanceMode) | isNothing (valueOf (distances m))]
-    <> diameterFindings
+    <> [finding (diameters m) f | Just f <- [diameterFault demand (valueOf (diameters m))]]
     <> [ finding (compensates m) (ModeUnknown CompensationMode)
          | valueOf (compensates m) /= Just False
        ]
@@ -90,10 +100,17 @@ settled form demand step =
   where
     m = state step
     finding part = ControlFinding (line step) (lineOf part)
-    diameterFindings = case valueOf (diameters m) of
-      Nothing -> [finding (diameters m) (ModeUnknown DiameterMode)]
-      Just True -> [finding (diameters m) XInDiameters]
-      Just False -> []
+
+-- | Fault of the meaning of the words X. Nothing as an argument means that no line sets it.
+diameterFault :: StateDemand -> Maybe Bool -> Maybe ControlFault
+diameterFault demand areDiameters = case areDiameters of
+  Nothing -> Just (ModeUnknown DiameterMode)
+  Just found
+    | found == wanted -> Nothing
+    | found -> Just XInDiameters
+    | otherwise -> Just XInRadii
+  where
+    wanted = (wordsOfX <$> latheDemand demand) == Just XDiameter
 
 -- | Fault of the length that is taken for the tool in the spindle.
 lengthFault :: Maybe Int -> Maybe ToolLength -> Maybe ControlFault

@@ -10,9 +10,12 @@ module Verify.FromGcode
 where
 
 import Base.PulseVector (Pulses3 (..))
-import Base.Quantity (Mm (..), Pulses (..), minus, plus)
+import Base.Quantity (Mm (..), Pulses (..), minus, plus, times)
 import Base.Region (Located (..))
 import Data.List (foldl')
+import Data.List.NonEmpty qualified as NonEmpty
+import Data.Map.Strict (Map)
+import Data.Map.Strict qualified as Map
 import Data.Maybe (mapMaybe)
 import Data.Text (Text)
 import Data.Text qualified as Text
@@ -25,13 +28,16 @@ import Gcode.ModalState (Plane (..))
 import Gcode.Run qualified as Run
 import Gcode.ToFrames (GcodeReading (..), ReadFrame (..))
 import Gcode.ToFrames qualified as ToFrames
+import Gcode.ToolTip qualified as ToolTip
 import Machine.Machine (Machine, ProgramForm (..))
 import Machine.Machine qualified as Machine
-import Machine.ProgramForm (RapidPath (..))
+import Machine.ProgramForm (Lathe, RapidPath (..))
 import Machine.ProgramForm qualified as ProgramForm
+import Part.Part qualified as Part
 import Verify.ControlFault qualified as ControlFault
 import Verify.ControlState (StateDemand (..))
 import Verify.ControlState qualified as ControlState
+import Verify.LatheMove (LatheDemand (..), Nose (..))
 import Verify.Proof (ContourProof (..), Finding (LeavesPath), Proof (..), Witness (amount))
 
 -- | Reads the files of a program. Lines are counted over all files together. @program@ has the
@@ -47,7 +53,7 @@ readTexts machine form heading program texts =
   ToFrames.reading
     machine
     (excursionOf machine form heading program)
-    (firstTool heading)
+    (ToFrames.FirstTool (firstTool heading) (tipsOf machine form heading))
     (Frame.start program)
     . concat
     <$> traverse ofFile (zip3 [1 ..] firstLines texts)
@@ -61,6 +67,18 @@ readTexts machine form heading program texts =
       | otherwise = case drop (k - 1) (toolOrder heading) of
         n : _ -> Just n
         [] -> Nothing
+
+-- | Offsets in pulses from the centre of each tool to the point that the control leads.
+tipsOf :: Machine -> ProgramForm -> FileHeading -> Map Int Pulses3
+tipsOf machine form heading = case lathe form of
+  Nothing -> Map.empty
+  Just _ -> fmap (ToolTip.offset machine) (cutters heading)
+
+-- | Largest shift in mm of a path by the rounding of these offsets.
+tipRounding :: Machine -> ProgramForm -> FileHeading -> Mm
+tipRounding machine form heading = case lathe form of
+  Nothing -> Mm 0
+  Just _ -> foldl' max (Mm 0) (fmap (ToolTip.rounding machine) (cutters heading))
 
 -- | Height in pulses from which on the tool is above everything; Nothing if no height in work
 -- coordinates is.
@@ -97,7 +115,7 @@ demandOf :: Machine -> ProgramForm -> FileHeading -> FrameProgram -> StateDemand
 demandOf machine form heading program =
   StateDemand
     { offset = workOffset heading,
-      cuttingPlane = PlaneXY,
+      cuttingPlane = maybe PlaneXY (const PlaneZX) (lathe form),
       level = inPicometres <$> levelOf machine form heading,
       excursion = inPicometres <$> excursionOf machine form heading program,
       boxLevel =
@@ -106,11 +124,33 @@ demandOf machine form heading program =
               StraightPath -> Nothing
               BoxPath | isInfinite z -> Just maxBound
               BoxPath -> Just (round (z * 1.0e9)),
-      isByHand = isSpindleByHand heading
+      isByHand = isSpindleByHand heading,
+      latheDemand = latheDemandOf machine heading <$> lathe form
     }
   where
     inPicometres (Pulses n) = n * round (resolution * 1.0e9)
     Mm resolution = Machine.resolutionOf machine Machine.Z
+
+-- | What the program asks of the motions of a lathe.
+latheDemandOf :: Machine -> FileHeading -> Lathe -> LatheDemand
+latheDemandOf machine heading form =
+  LatheDemand
+    { wordsOfX = ProgramForm.meaningOfX form,
+      profiles =
+        map Part.segment (concatMap (NonEmpty.toList . Part.elements . Part.contour) turned),
+      noses = fmap nose (cutters heading),
+      slack =
+        plus
+          (times 2 (Machine.planeResolution machine))
+          (foldl' max (Mm 0) (map (uncurry max . Part.deviationLimits . Part.tolerance) turned))
+    }
+  where
+    turned = turnings heading
+    nose cutter =
+      let Pulses3 x y _ = ToolTip.offset machine cutter
+          length' axis (Pulses n) =
+            times (fromIntegral n) (Machine.resolutionOf machine axis)
+       in Nose (Part.cutterRadius cutter) (length' Machine.X x) (length' Machine.Y y)
 
 -- | Largest deviation that a control may make at corners: what the deviations of all contours leave
 -- of the tolerance, rounded down to 0.001 mm. Nothing if nothing is left, or without contours.
@@ -145,7 +185,10 @@ judged machine form heading program reading proof =
   where
     demand = demandOf machine form heading program
     controlFindings = ControlState.findings form demand (steps reading)
-    p = plus (ControlState.largestBlending (steps reading)) (offGrid reading)
+    p =
+      plus
+        (tipRounding machine form heading)
+        (plus (ControlState.largestBlending (steps reading)) (offGrid reading))
     farther c = c {gouge = further <$> gouge c, excess = further <$> excess c}
     further w = w {amount = plus (amount w) p}
     tooFar c

@@ -6,7 +6,9 @@ import Base.Quantity (Mm (..), Pulses (..))
 import Base.Region (Region (Region))
 import Control.Monad (forM_)
 import Data.List (foldl', mapAccumL)
+import Data.Map.Strict qualified as Map
 import Data.Maybe (fromMaybe, isNothing, maybeToList)
+import Data.Set qualified as Set
 import Data.Text (Text)
 import Data.Text qualified as Text
 import Frame.Command (Pending (..))
@@ -75,7 +77,10 @@ heading =
       toolOrder = [1],
       safeHeight = Just (Mm 60),
       freeHeight = Mm 5,
-      isSpindleByHand = False
+      isSpindleByHand = False,
+      cutters = Map.empty,
+      insidePasses = Set.empty,
+      turnings = []
     }
 
 textsOf :: Machine -> FileHeading -> FrameProgram -> [Writer.ToolFile]
