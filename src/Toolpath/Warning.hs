@@ -69,12 +69,13 @@ throughPart path =
   where
     isLow m = uncurry min (Toolpath.heights m) < Mm 0 || isFlat
     isFlat = Toolpath.isFlat path
+    bore = boreRadius path
     -- Moves along a contour are never rapid.
     linkingMoves b = case b of
       Cutting {approach, retract} -> approach <> retract
       _ -> Toolpath.moves b
     index =
-      BoxTree.index boxOf (concatMap NonEmpty.toList (mapMaybe (bodiesOf . snd) (firstPasses path)))
+      BoxTree.index boxOf (concatMap NonEmpty.toList (mapMaybe (bodiesOf bore . snd) (firstPasses path)))
     innermost p =
       case filter
         ((`WindingNumber.encloses` p) . outline)
@@ -117,7 +118,7 @@ intoContent path
         (boxOf . snd)
         [ (n, body)
           | (n, b) <- firstPasses path,
-            Just ofPass <- [bodiesOf b],
+            Just ofPass <- [bodiesOf (Mm 0) b],
             body <- NonEmpty.toList ofPass
         ]
 
@@ -212,10 +213,11 @@ firstPasses path =
       _ -> []
 
 -- | The bodies at which a pass cuts: for a pass along a contour those of 'bodyOf', for a pocket its
--- outer contour and its islands. Nothing if there are none.
-bodiesOf :: Block -> Maybe (NonEmpty.NonEmpty Body)
-bodiesOf b = case b of
-  Cutting {job = Located _ milling} -> NonEmpty.nonEmpty (bodyOf milling)
+-- outer contour and its islands. Nothing if there are none. @bore@ is the radius of a bore along the
+-- axis of the spindle.
+bodiesOf :: Mm -> Block -> Maybe (NonEmpty.NonEmpty Body)
+bodiesOf bore b = case b of
+  Cutting {job = Located _ milling} -> NonEmpty.nonEmpty (bodyOf bore milling)
   Clearing {pocket = Located _ p} ->
     let outer =
           Part.contour (Part.wall p)
@@ -230,14 +232,14 @@ bodiesOf b = case b of
 
 -- | The body of a milling statement's contour. Empty if the cutter's centre moves on the contour,
 -- and for an open contour. The one exception is a profile turned outside: it is open, but the axis
--- of the spindle closes it.
-bodyOf :: Milling -> [Body]
-bodyOf milling = case (Part.ends contour, value (Part.side milling)) of
+-- of the spindle closes it, or the bore of this radius.
+bodyOf :: Mm -> Milling -> [Body]
+bodyOf (Mm bore) milling = case (Part.ends contour, value (Part.side milling)) of
   (Part.Closed, Outside) -> [whole True]
   (Part.Closed, Inside) -> [whole False]
   (Part.Closed, LeftSide) -> [whole (not isCounterClockwise)]
   (Part.Closed, RightSide) -> [whole isCounterClockwise]
-  -- A turned part extends from its profile to the axis of the spindle.
+  -- A turned part extends from its profile to the axis of the spindle, or to its bore.
   (Part.Open, Outside)
     | Part.work milling == Turned ->
       [ Body
@@ -262,8 +264,22 @@ bodyOf milling = case (Part.ends contour, value (Part.side milling)) of
     segments = Polyarc.segments (Part.polyarcOf contour)
     begin = Segment.start (NonEmpty.head segments)
     end = Segment.end (NonEmpty.last segments)
-    onAxis = Vec.point (Vec.x end) 0
-    before = Vec.point (Vec.x begin) 0
+    inner = min bore (min (Vec.y begin) (Vec.y end))
+    onAxis = Vec.point (Vec.x end) inner
+    before = Vec.point (Vec.x begin) inner
+
+-- | Largest radius to which a toolpath turns the inside of a part; 0 if it does not.
+boreRadius :: Toolpath -> Mm
+boreRadius path =
+  maximum
+    ( Mm 0 :
+        [ Mm (max (Vec.y (Segment.start s)) (Vec.y (Segment.end s)))
+          | Cutting {job = Located _ milling} <- Toolpath.blocks path,
+            Part.work milling == Turned,
+            value (Part.side milling) == Inside,
+            s <- map Part.segment (NonEmpty.toList (Part.elements (Part.contour milling)))
+        ]
+    )
 
 -- | Warnings about tool changes that stop a turning spindle, if the tool then cuts or drills
 -- although the program has not started the spindle again. A toolpath for a lathe has no such
