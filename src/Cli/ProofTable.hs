@@ -51,7 +51,10 @@ proof unit machine p =
               | (Pulses d, a) <- zip (inOrder (Proof.largestIncrement p)) [X, Y, Z]
             ]
         ],
-        ["misses its end by", axes [Decimal.whole d | Pulses d <- inOrder (Proof.closure p)]],
-        ["verdict", if Proof.isProven p then "proven" else "WRONG"]
+        ["misses its end by", axes [Decimal.whole d | Pulses d <- inOrder (Proof.closure p)]]
       ]
+        <> [ ["the control may leave the path by", Decimal.fixedInUnit unit 4 (Proof.mayLeave p)]
+             | Proof.mayLeave p > Mm 0
+           ]
+        <> [["verdict", if Proof.isProven p then "proven" else "WRONG"]]
     capacityWord axis = let Pulses n = Machine.capacity machine axis in Decimal.whole n

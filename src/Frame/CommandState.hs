@@ -25,7 +25,7 @@ import Part.Part (Command (..), Sense (..), Switch (..))
 
 -- | Tool, spindle and coolant.
 data CommandState = CommandState
-  { -- | number of the tool; Nothing for the first tool of a program
+  { -- | number of the tool; Nothing for a first tool without a number
     tool :: Maybe Int,
     -- | sense and speed in turns per minute; Nothing while the spindle is off
     spindle :: Maybe (Sense, Maybe Int),

@@ -68,8 +68,10 @@ instructions machine path = concat (arranged (zip blocks ofBlocks))
     blocks = Toolpath.blocks path
     passNumbers = Toolpath.passNumbers blocks
     ofBlocks = zipWith4 (ofBlock machine) [0 ..] passNumbers (wallsOf blocks) blocks
+    first = value <$> Toolpath.firstToolNumber (Toolpath.setup path)
+    begin = CommandState.initial {CommandState.tool = first}
     arranged = case Machine.programForm machine of
-      Just _ -> byState machine (CommandState.initial, CommandState.initial)
+      Just _ -> byState machine (begin, begin)
       Nothing -> map snd
 
 -- | Instructions of the blocks with commands in one form: what has changed since the last move

@@ -3,6 +3,9 @@ module Gcode.Heading
   ( FileHeading (..),
     fromToolpath,
     safeHeightOn,
+    raised,
+    aboveEverything,
+    highest,
     clearances,
     highestClearance,
   )
@@ -10,7 +13,8 @@ where
 
 import Base.Decimal qualified as Decimal
 import Base.Name (Name (..))
-import Base.Quantity (Mm (..), times)
+import Base.PulseVector (Pulses3 (..))
+import Base.Quantity (Mm (..), Pulses (..), times)
 import Base.Region (Located (..))
 import Data.Containers.ListUtils (nubOrdOn)
 import Data.List.NonEmpty qualified as NonEmpty
@@ -19,8 +23,12 @@ import Data.Map.Strict qualified as Map
 import Data.Set (Set)
 import Data.Set qualified as Set
 import Data.Text (Text)
+import Frame.Frame (FrameProgram (..))
+import Frame.Frame qualified as Frame
 import Geometry.Segment qualified as Segment
 import Geometry.Vec qualified as Vec
+import Machine.Machine (Machine)
+import Machine.Machine qualified as Machine
 import Machine.ProgramForm (ProgramForm (..), Retract (..))
 import Part.Part (Cutter, Milling)
 import Part.Part qualified as Part
@@ -112,6 +120,29 @@ isBelow job = case value (Part.side job) of
     elements = Part.elements (Part.contour job)
     begin = Vec.x (Segment.start (Part.segment (NonEmpty.head elements)))
     finish = Vec.x (Segment.end (Part.segment (NonEmpty.last elements)))
+
+-- | The heading with a safe height in whole pulses above all motions of the program. If the program
+-- itself goes up to its safe height, this is one pulse more, so that no motion of the program is
+-- taken for one above everything.
+raised :: Machine -> ProgramForm -> FrameProgram -> FileHeading -> FileHeading
+raised machine form program heading = case aboveEverything machine <$> safeHeightOn form heading of
+  Nothing -> heading
+  Just level ->
+    let free = if highest program == level then level + 1 else level
+     in heading {safeHeight = Just (Frame.height machine (Pulses3 0 0 free))}
+
+-- | Height in pulses at a safe height in mm, or directly above it.
+aboveEverything :: Machine -> Mm -> Pulses
+aboveEverything machine (Mm z) = Pulses (ceiling (z / resolution - 1.0e-6))
+  where
+    Mm resolution = Machine.resolutionOf machine Machine.Z
+
+-- | Highest position of a program in pulses.
+highest :: FrameProgram -> Pulses
+highest FrameProgram {start, plannedFrames} =
+  maximum (map height (scanl (+) start (map (Frame.increment . Frame.frame) plannedFrames)))
+  where
+    height (Pulses3 _ _ z) = z
 
 -- | Clearance heights of the machining statements.
 clearances :: Toolpath -> [Mm]

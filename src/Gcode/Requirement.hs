@@ -6,7 +6,7 @@ module Gcode.Requirement
 where
 
 import Base.Decimal qualified as Decimal
-import Base.PulseVector (Pulses3)
+import Base.PulseVector (Pulses3 (..))
 import Base.Region (Located (..), Region)
 import Data.List (find, mapAccumL)
 import Data.Maybe (isNothing, mapMaybe)
@@ -55,7 +55,9 @@ spindleErrors machine heading path
     notTurning (state, block) = case CommandState.spindle state of
       Nothing -> off <$> cutOf block
       Just (_, Nothing) -> slow <$> cutOf block
-      Just (_, Just _) -> Nothing
+      Just (_, Just n)
+        | n > 0 -> Nothing
+        | otherwise -> slow <$> cutOf block
     off region =
       (at region "E0511" "the spindle is off at this cut")
         { label = "this cuts",
@@ -187,9 +189,7 @@ safeErrors machine form heading path program = case retract form of
             ],
           hints = ["Write a higher ‘safe’, or let the program stay below it."]
         }
-    FrameProgram begin planned = program
-    highest =
-      maximum (map (Frame.height machine) (scanl (+) begin (map (Frame.increment . frame) planned)))
+    highest = Frame.height machine (Pulses3 0 0 (Heading.highest program))
 
 -- | Error of a rapid move whose axes arrive one after the other, where only the straight line is
 -- free.

@@ -86,19 +86,19 @@ reading machine level FirstTool {firstNumber, tipsOfTools} start list =
       Converting
         { here = start,
           isAway = True,
-          commanded = CommandState.initial,
+          commanded = CommandState.initial {tool = firstNumber},
           pending = Nothing,
           waitedFor = Nothing,
           made = [],
           tips = tipsOfTools,
           lost = 0
         }
-    end = foldl' (converted machine level firstNumber) begin list
+    end = foldl' (converted machine level) begin list
 
 -- | Converts one action.
-converted :: Machine -> Maybe Pulses -> Maybe Int -> Converting -> Step -> Converting
-converted machine level loaded c step = case action step of
-  Travels travel -> travelled machine level (withCommands machine loaded step) c step travel
+converted :: Machine -> Maybe Pulses -> Converting -> Step -> Converting
+converted machine level c step = case action step of
+  Travels travel -> travelled machine level (withCommands machine step) c step travel
   Changes _ -> c
   Dwells t
     | isStart, waitedFor c /= started -> c {waitedFor = started}
@@ -121,7 +121,7 @@ converted machine level loaded c step = case action step of
         machine
         step
         (Command.translated machine (Located (Region 0 0) command))
-        (withCommands machine loaded step c)
+        (withCommands machine step c)
 
 -- | Converts a motion. @switched@ adds the commands that the state of the motion shows.
 travelled ::
@@ -157,10 +157,10 @@ shiftedBy machine (Pulses3 dx dy _) (i, j) = (i - along X dx, j - along Y dy)
     along axis (Pulses n) = n * pulseOf machine axis
 
 -- | Adds the commands that lead to the state of a step.
-withCommands :: Machine -> Maybe Int -> Step -> Converting -> Converting
-withCommands machine loaded step c = foldl' add c {commanded = now} groups
+withCommands :: Machine -> Step -> Converting -> Converting
+withCommands machine step c = foldl' add c {commanded = now} groups
   where
-    now = stateOf loaded (state step)
+    now = stateOf (state step)
     groups = CommandState.between machine (commanded c) now
     add c' ws = added machine step (Command.Translation ws False [] []) c'
 
@@ -172,13 +172,11 @@ added machine step translation c =
     (full, pending') = Command.add machine (Region 0 0) translation (pending c)
 
 -- | State of tool, spindle and coolant. Unknown parts count as off; "Verify.ControlState" finds
--- them. The tool is Nothing as long as it is the first one.
-stateOf :: Maybe Int -> ModalState -> CommandState
-stateOf loaded m =
+-- them.
+stateOf :: ModalState -> CommandState
+stateOf m =
   CommandState
-    { tool = case valueOf (toolInSpindle m) of
-        t | t == loaded || isNothing t -> Nothing
-        t -> t,
+    { tool = valueOf (toolInSpindle m),
       CommandState.spindle = case valueOf (Gcode.ModalState.spindle m) of
         Just (SpindleTurning sense) -> Just (senseOf sense, round <$> valueOf (speed m))
         _ -> Nothing,
@@ -238,7 +236,8 @@ frameOf machine step travel begin target = case mode travel of
     | otherwise -> plain {motion = Linear, feedCode}
   where
     plain = (Frame.commandFrame []) {increment = target - begin}
-    feedCode = FeedCode (maybe 0 round (valueOf (Gcode.ModalState.feed (state step))))
+    feedCode = FeedCode (maybe 0 inSteps (valueOf (Gcode.ModalState.feed (state step))))
+    inSteps v = round (v / Machine.directStep (Machine.feeds machine))
     centreFrom (i, j) =
       let Pulses3 x y _ = begin
           (cx, _) = nearest machine X i

@@ -13,11 +13,19 @@ where
 
 import Base.Decimal qualified as Decimal
 import Base.PulseVector (Pulses2 (..), Pulses3 (..))
-import Base.Quantity (Feed (..), Mm (..), Pulses (..), Seconds (..), minus, travelTime)
+import Base.Quantity
+  ( Feed (..),
+    LengthUnit (..),
+    Mm (..),
+    Pulses (..),
+    Seconds (..),
+    minus,
+    travelTime,
+  )
 import Data.Char (isAscii, isPrint)
 import Data.List (foldl')
-import Data.Maybe (fromMaybe, isJust, listToMaybe, mapMaybe, maybeToList)
 import Data.Map.Strict qualified as Map
+import Data.Maybe (fromMaybe, isJust, listToMaybe, mapMaybe, maybeToList)
 import Data.Set qualified as Set
 import Data.Text (Text)
 import Data.Text qualified as Text
@@ -72,12 +80,13 @@ data Writing = Writing
 -- | Files of a program. @bound@ is the largest deviation in mm from the path that the control may
 -- make at corners; Nothing for an exact path.
 write :: Machine -> ProgramForm -> FileHeading -> Maybe Mm -> FrameProgram -> [ToolFile]
-write machine form heading bound program =
+write machine form given bound program =
   [ ToolFile (if isOneFile then Nothing else toolOf part) (Text.unlines (fileLines context part))
     | part <- parts
   ]
   where
     context = Context {machine, form, heading, bound}
+    heading = Heading.raised machine form program given
     isOneFile = ProgramForm.changesTools (dialect form)
     frames = dropEnd (length (Command.finalFrames machine)) (plannedFrames program)
     whole = FilePart (firstTool heading) (start program) False frames
@@ -207,15 +216,16 @@ operatorTexts form heading =
   where
     safeTexts = case Heading.safeHeightOn form heading of
       Just z ->
-        [ "the tool stands no higher than z " <> Decimal.mm z,
+        [ "the tool stands no higher than z " <> Decimal.inUnit (fileUnit form) z,
           "nothing is above the tool on its way up to that height"
         ]
       Nothing -> []
 
 -- | Options of the firmware without which it passes over commands of the file, and goes on.
 marlinTexts :: Context -> FilePart -> [Text]
-marlinTexts Context {machine, heading} part =
+marlinTexts Context {machine, form, heading} part =
   ["CNC_COORDINATE_SYSTEMS and CNC_WORKSPACE_PLANES"]
+    <> ["INCH_MODE_SUPPORT" | fileUnit form == Inches]
     <> ["ARC_SUPPORT" | any (isArc . frame) (framesOf part)]
     <> ["SPINDLE_FEATURE with CUTTER_POWER_UNIT RPM" | not (isSpindleByHand heading)]
     <> ["COOLANT_CONTROL with COOLANT_FLOOD" | isCooled part || not (null cooling)]
@@ -277,35 +287,38 @@ commentLine Context {form} (word, text) = case dialect form of
 modeLines :: Context -> [Text]
 modeLines Context {form, heading, bound} = case dialect form of
   LinuxCnc ->
-    [ "G21 " <> plane <> " G90 G91.1 G94 " <> meaning <> " G40 G49 G80",
+    [ units <> " " <> plane <> " G90 G91.1 G94 " <> meaning <> " G40 G49 G80",
       offset,
       maybe "G61" blended bound
     ]
-  Fanuc -> ["G21 G17 G90 G94 G40 G49 G80", offset, "G61"]
-  Grbl -> ["G21 G17 G90 G91.1 G94 G40 G49 G80", offset]
-  Marlin -> ["G21", "G17", "G90", offset]
+  Fanuc -> [units <> " G17 G90 G94 G40 G49 G80", offset, "G61"]
+  Grbl -> [units <> " G17 G90 G91.1 G94 G40 G49 G80", offset]
+  Marlin -> [units, "G17", "G90", offset]
   where
     (plane, meaning) = case meaningOfX <$> lathe form of
       Nothing -> ("G17", "G8")
       Just XRadius -> ("G18", "G8")
       Just XDiameter -> ("G18", "G7")
     offset = "G" <> Decimal.whole (workOffset heading)
-    blended (Mm p) = "G64 P" <> Decimal.fixed 3 p <> " Q0"
+    units = case fileUnit form of
+      Millimetres -> "G21"
+      Inches -> "G20"
+    blended p = "G64 P" <> Decimal.fixedIn (fileUnit form) 3 p <> " Q0"
 
 -- | Lines that take the tool to the retract height: z alone, upwards. On a lathe X and Z go one
 -- after the other to their retract positions; Z is first if the inside of the part was turned.
 retractLines :: Context -> Bool -> [Text]
 retractLines context@Context {form, heading} inside = case retract form of
-  MachineHeight (Mm h) ->
-    inOrder inside (crossLines <> ["G53 G0 Z" <> Decimal.short 3 h])
+  MachineHeight h -> inOrder inside (crossLines <> ["G53 G0 Z" <> short h])
   ReferencePoint -> ["G91 G28 Z0.", "G90"]
   SafeHeight _ -> ["G0 " <> height <> rapidFeed context]
   where
     height = case Heading.safeHeightOn form heading of
-      Just (Mm z) -> "Z" <> Decimal.fixed 3 z
+      Just z -> "Z" <> Decimal.fixedIn (fileUnit form) 3 z
       Nothing -> ""
+    short = Decimal.shortIn (fileUnit form) 3
     crossLines =
-      [ "G53 G0 X" <> Decimal.short 3 (xFactor form * x)
+      [ "G53 G0 X" <> short (Mm (xFactor form * x))
         | Just Lathe {crossRetract = Mm x} <- [lathe form]
       ]
 
@@ -330,11 +343,13 @@ toolLines Context {form} tool =
     | ProgramForm.changesTools (dialect form),
       n <- maybeToList tool,
       line <-
-        [ "G53 G0 X" <> Decimal.short 3 x <> " Y" <> Decimal.short 3 y
-          | (Mm x, Mm y) <- maybeToList (changePlace form)
+        [ "G53 G0 X" <> short x <> " Y" <> short y
+          | (x, y) <- maybeToList (changePlace form)
         ]
           <> ["T" <> Decimal.whole n <> " M6", "G43 H" <> Decimal.whole n]
   ]
+  where
+    short = Decimal.shortIn (fileUnit form) 3
 
 -- | Lines that end the program.
 finishLines :: Context -> [Text]
@@ -437,7 +452,11 @@ actionLine context@Context {machine, form, heading} now action = case action of
   StopSpindle -> (now {turns = False}, ["M5"])
   CoolantSwitch isOn ->
     (now {hasCoolant = isOn, isCoolantPaused = False}, [if isOn then "M8" else "M9"])
-  OtherCommand c -> (now, [commandText machine c])
+  -- A stop or a dwell has the coolant of the program.
+  OtherCommand c ->
+    ( now {isCoolantPaused = False},
+      ["M8" | isCoolantPaused now] <> [commandText machine c]
+    )
 
 -- | Line that waits for a time.
 dwellLine :: ProgramForm -> Seconds -> Text
@@ -506,7 +525,11 @@ motionText context@Context {machine} end f = Text.unwords (motionWord : axisWord
 
 -- | Number of a feed word. Some controls want a point in it.
 feedNumber :: Context -> Int -> Text
-feedNumber Context {form} n = Decimal.whole n <> (if dialect form == Fanuc then "." else "")
+feedNumber Context {machine, form} n = number <> (if needsPoint then "." else "")
+  where
+    places = maybe 0 (decimals . Machine.form) (Machine.wordFor machine FeedWord)
+    number = decimalText places n
+    needsPoint = dialect form == Fanuc && places == 0
 
 -- | Feed word of a rapid move, on controls that need one.
 rapidFeed :: Context -> Text

@@ -114,6 +114,7 @@ feedsIn section =
   Feeds
     <$> required "measure" "measure mm/min" measureFrom section
     <*> codesFrom section
+    <*> pure 1
     <*> required "rule" "rule nearest" ruleFrom section
     <*> required "rapid" "rapid highest" rapidFrom section
     <* allowKeys ["measure", "table", "direct", "rule", "rapid"] [] section

@@ -27,6 +27,9 @@ newtype FeedCode = FeedCode Int
 data Feeds = Feeds
   { feedMeasure :: FeedMeasure,
     codes :: FeedCodes,
+    -- | value of the code 1 of 'Direct' codes, in the unit of 'FeedMeasure'; 1 if each code is its
+    -- own value
+    directStep :: Double,
     rule :: Rule,
     rapidFeed :: RapidCode
   }

@@ -28,6 +28,7 @@ module Machine.Machine
     resolutionOf,
     drivenAxes,
     forTurning,
+    inInches,
     isMirrored,
 
     -- * The layout of a frame
@@ -93,11 +94,12 @@ module Machine.Machine
   )
 where
 
-import Base.Quantity (Mm (..), Pulses (..))
+import Base.Quantity (LengthUnit (..), Mm (..), Pulses (..), millimetresIn)
 import Data.List (foldl')
 import Data.List.NonEmpty (NonEmpty (..))
 import Data.List.NonEmpty qualified as NonEmpty
 import Data.Map.Strict qualified as Map
+import Data.Maybe (isNothing)
 import Data.Text (Text)
 import Machine.Axis
   ( Arcs (..),
@@ -233,6 +235,43 @@ forTurning :: Machine -> Machine
 forTurning machine =
   machine {axes = fmap (\f -> f {reversed = reversed f /= reversedOnLathe f}) (axes machine)}
 
+-- | The machine with files in inches: a step of an axis is the last decimal in inches, of which
+-- there is one more than in mm, and a feed code counts tenths of in/min. A machine whose tapes have
+-- no form of programs stays as it is, and so does a lathe.
+inInches :: Machine -> Machine
+inInches machine = case programForm machine of
+  Just written
+    | isNothing (lathe written) ->
+      machine
+        { programForm = Just written {fileUnit = Inches},
+          axes = fmap inchAxis (axes machine),
+          layout = (layout machine) {items = fmap inchItem (items (layout machine))},
+          feeds = inchFeeds (feeds machine)
+        }
+  _ -> machine
+  where
+    inchAxis f = f {resolution = inchStep (axis f)}
+    inchStep a = case wordFor machine (Along a) of
+      Just word -> Mm (millimetresIn Inches / 10 ^ (decimals (form word) + 1))
+      Nothing -> resolutionOf machine a
+    inchItem item = case item of
+      AWord word
+        | isLength (content word) || content word == FeedWord ->
+          AWord word {form = (form word) {decimals = decimals (form word) + 1}}
+      _ -> item
+    isLength c = case c of
+      Along _ -> True
+      Centre _ -> True
+      _ -> False
+    inchFeeds f = case codes f of
+      Direct a b ->
+        f
+          { codes = Direct (max 1 (ceiling (fromIntegral a / step))) (floor (fromIntegral b / step)),
+            directStep = step
+          }
+      Listed _ -> f
+    step = millimetresIn Inches / 10
+
 -- | True if the machine's axes mirror the part, so that the left side of a contour is the right
 -- side for the machine.
 isMirrored :: Machine -> Bool
@@ -329,14 +368,14 @@ choose machine wanted
   | otherwise = case codes f of
     Direct a b ->
       let n = max (max 1 a) (min b (rounded (rule f)))
-       in Given (FeedCode n) (fromIntegral n)
+       in Given (FeedCode n) (fromIntegral n * directStep f)
     Listed table -> let (c, v) = pick (Map.toList table) in Given c v
   where
     f = feeds machine
     (low, high) = feedRange machine
     rounded r = case r of
-      NotAbove -> floor (wanted + feedTolerance wanted)
-      Nearest -> floor (wanted + 0.5)
+      NotAbove -> floor ((wanted + feedTolerance wanted) / directStep f)
+      Nearest -> floor (wanted / directStep f + 0.5)
     pick table = case rule f of
       Nearest -> leastBy (\(c, v) -> (abs (v - wanted), c)) table
       NotAbove ->
@@ -355,13 +394,13 @@ feedTolerance v = 1e-9 * max 1 (abs v)
 valueOf :: Machine -> FeedCode -> Maybe Double
 valueOf machine c@(FeedCode n) = case codes (feeds machine) of
   Listed table -> Map.lookup c table
-  Direct a b -> if a <= n && n <= b then Just (fromIntegral n) else Nothing
+  Direct a b -> if a <= n && n <= b then Just (fromIntegral n * directStep (feeds machine)) else Nothing
 
 -- | Lowest and highest feed that the machine's codes can mean, in the unit of its 'FeedMeasure';
 -- both 0 for an empty table.
 feedRange :: Machine -> (Double, Double)
 feedRange machine = case codes (feeds machine) of
-  Direct a b -> (fromIntegral a, fromIntegral b)
+  Direct a b -> let step = directStep (feeds machine) in (fromIntegral a * step, fromIntegral b * step)
   Listed table -> case Map.elems table of
     [] -> (0, 0)
     vs -> (minimum vs, maximum vs)
@@ -381,7 +420,7 @@ slowest machine = let (v, c) = extreme minimum machine in (c, v)
 -- @select@ is 'minimum' or 'maximum'. For an empty table, feed and code are 0.
 extreme :: ([(Double, FeedCode)] -> (Double, FeedCode)) -> Machine -> (Double, FeedCode)
 extreme select machine = case codes (feeds machine) of
-  Direct a b -> select [(fromIntegral n, FeedCode n) | n <- [a, b]]
+  Direct a b -> select [(fromIntegral n * directStep (feeds machine), FeedCode n) | n <- [a, b]]
   Listed table -> case [(v, c) | (c, v) <- Map.toList table] of
     [] -> (0, FeedCode 0)
     vs -> select vs

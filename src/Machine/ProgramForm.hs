@@ -13,7 +13,7 @@ module Machine.ProgramForm
   )
 where
 
-import Base.Quantity (Mm, Seconds)
+import Base.Quantity (LengthUnit, Mm, Seconds)
 import Data.Text (Text)
 
 -- | Form of the programs of a modern control.
@@ -30,6 +30,8 @@ data ProgramForm = ProgramForm
     -- | place of the tool change: x and y in machine coordinates, in mm; Nothing for a change where
     -- the tool is. The tool goes there at the retract height
     changePlace :: Maybe (Mm, Mm),
+    -- | unit of the numbers in a file
+    fileUnit :: LengthUnit,
     -- | step of the line numbers; Nothing for lines without numbers
     numberStep :: Maybe Int,
     -- | a remark for the head of each file; may be empty

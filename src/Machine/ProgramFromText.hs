@@ -5,7 +5,7 @@ module Machine.ProgramFromText
   )
 where
 
-import Base.Quantity (Mm (..), Seconds (..))
+import Base.Quantity (LengthUnit (..), Mm (..), Seconds (..))
 import Base.Region (Located (..), Region)
 import Base.Result (Result)
 import Data.Maybe (isNothing)
@@ -29,6 +29,7 @@ programForm s = do
     <*> optional "cross-slide" Nothing (fmap Just . latheFrom) section
     <*> required "characters" "characters 250" charactersFrom section
     <*> optional "change-at" Nothing (fmap Just . placeFrom) section
+    <*> pure Millimetres
     <*> optional "line-numbers" Nothing (fmap Just . stepFrom) section
     <*> optional "remark" "" quotedText section
     <* allowKeys

@@ -9,6 +9,7 @@ module Project.Target
   )
 where
 
+import Base.Quantity (LengthUnit (..))
 import Base.Region (Located (..), Region)
 import Base.Region qualified as Region
 import Base.Result (Result (..))
@@ -49,9 +50,14 @@ ownMachines descriptions part path = case Part.machine part of
 machineOffset :: Part -> Maybe Int
 machineOffset part = (\(Located at _) -> Region.start at) <$> Part.start part
 
--- | Prepares a machine description for a toolpath: for turning, some machines reverse axes.
+-- | Prepares a machine description for a toolpath: for turning, some machines reverse axes; for a
+-- program in inches, modern controls get files in inches.
 setUpFor :: Toolpath -> Machine -> Machine
-setUpFor path machine = if Toolpath.isTurned path then Machine.forTurning machine else machine
+setUpFor path machine = case Toolpath.unit path of
+  Millimetres -> turned
+  Inches -> Machine.inInches turned
+  where
+    turned = if Toolpath.isTurned path then Machine.forTurning machine else machine
 
 -- | The machine that the @machine@ statement of the program names.
 ownMachine :: Descriptions -> Located MachineRef -> Result w Error Machine

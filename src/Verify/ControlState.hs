@@ -32,8 +32,6 @@ data StateDemand = StateDemand
     -- | height in picometres from which on the tool is above everything, in work coordinates;
     -- Nothing if only the retract height is
     level :: Maybe Int,
-    -- | height in picometres from which on the motions of the file are not those of the program
-    excursion :: Maybe Int,
     -- | height in picometres from which on rapid moves pass over everything, if their axes may
     -- arrive one after the other; Nothing if they move along a straight line
     boxLevel :: Maybe Int,
@@ -187,7 +185,7 @@ unsafeMoves demand step travel
       Anywhere -> False
     isKnown p = hasPlane p && isAt (placeZ p)
     isOutside p = case placeZ p of
-      At h -> maybe False (h >=) (excursion demand)
+      At h -> maybe False (h >=) (level demand)
       Retracted -> True
       Anywhere -> False
     isAt c = case c of

@@ -19,7 +19,7 @@ import Data.Map.Strict qualified as Map
 import Data.Maybe (mapMaybe)
 import Data.Text (Text)
 import Data.Text qualified as Text
-import Frame.Frame (Frame (increment), FrameProgram, PlannedFrame (frame))
+import Frame.Frame (Frame, FrameProgram)
 import Frame.Frame qualified as Frame
 import Gcode.Block (Fault)
 import Gcode.Heading (FileHeading (..))
@@ -52,7 +52,7 @@ readTexts ::
 readTexts machine form heading program texts =
   ToFrames.reading
     machine
-    (excursionOf machine form heading program)
+    (levelOf machine form heading program)
     (ToFrames.FirstTool (firstTool heading) (tipsOf machine form heading))
     (Frame.start program)
     . concat
@@ -80,25 +80,13 @@ tipRounding machine form heading = case lathe form of
   Nothing -> Mm 0
   Just _ -> foldl' max (Mm 0) (fmap (ToolTip.rounding machine) (cutters heading))
 
--- | Height in pulses from which on the tool is above everything; Nothing if no height in work
--- coordinates is.
-levelOf :: Machine -> ProgramForm -> FileHeading -> Maybe Pulses
-levelOf machine form heading = case Heading.safeHeightOn form heading of
-  Just (Mm z) -> Just (Pulses (ceiling (z / resolution - 1.0e-6)))
-  Nothing -> Nothing
+-- | Height in pulses from which on the tool is above everything, and a motion is not one of the
+-- program; Nothing if no height in work coordinates is.
+levelOf :: Machine -> ProgramForm -> FileHeading -> FrameProgram -> Maybe Pulses
+levelOf machine form heading program =
+  Heading.aboveEverything machine <$> Heading.safeHeightOn form raised
   where
-    Mm resolution = Machine.resolutionOf machine Machine.Z
-
--- | Height in pulses from which on a motion is not one of the program: the height above everything,
--- or one pulse more if the program itself moves there.
-excursionOf :: Machine -> ProgramForm -> FileHeading -> FrameProgram -> Maybe Pulses
-excursionOf machine form heading program = beyond <$> levelOf machine form heading
-  where
-    beyond z = if highest >= z then highest + 1 else z
-    highest = foldl' max (height (Frame.start program)) (map height positions)
-    positions =
-      scanl (+) (Frame.start program) (map (increment . frame) (Frame.plannedFrames program))
-    height (Pulses3 _ _ z) = z
+    raised = Heading.raised machine form program heading
 
 -- | Frames that were read.
 framesRead :: GcodeReading -> [Frame]
@@ -116,8 +104,7 @@ demandOf machine form heading program =
   StateDemand
     { offset = workOffset heading,
       cuttingPlane = maybe PlaneXY (const PlaneZX) (lathe form),
-      level = inPicometres <$> levelOf machine form heading,
-      excursion = inPicometres <$> excursionOf machine form heading program,
+      level = inPicometres <$> levelOf machine form heading program,
       boxLevel =
         let Mm z = freeHeight heading
          in case rapidPath form of
@@ -153,20 +140,21 @@ latheDemandOf machine heading form =
        in Nose (Part.cutterRadius cutter) (length' Machine.X x) (length' Machine.Y y)
 
 -- | Largest deviation that a control may make at corners: what the deviations of all contours leave
--- of the tolerance, rounded down to 0.001 mm. Nothing if nothing is left, or without contours.
+-- of the tolerance, rounded down to the last decimal of the file. Nothing if nothing is left, or
+-- without contours.
 blendingBound :: Machine -> Proof -> Maybe Mm
 blendingBound machine proof = case mapMaybe left (contourProofs proof) of
   _ | null (contourProofs proof) -> Nothing
   rests -> positive (foldl' min (Mm (1 / 0)) rests)
   where
-    pulse = Machine.planeResolution machine
+    pulse@(Mm step) = Machine.planeResolution machine
     left c = Just (minus (min (leftOf allowedGouge gouge c) (leftOf allowedExcess excess c)) pulse)
     leftOf allowed found c = minus (allowed c) (maybe (Mm 0) amount (found c))
     positive (Mm d)
-      | n > 0 = Just (Mm (fromIntegral n / 1000))
+      | n > 0 = Just (Mm (fromIntegral n * step))
       | otherwise = Nothing
       where
-        n = floor (d * 1000 + 1.0e-6) :: Int
+        n = floor (d / step + 1.0e-6) :: Int
 
 -- | Judges the state of the control in all actions of a file. @proof@ is that of the path. What the
 -- control may leave the path by is added to all deviations. If the control reads the numbers of the
@@ -180,7 +168,8 @@ judged machine form heading program reading proof =
         if any (ControlFault.changesReading . ControlFault.fault) controlFindings
           then []
           else findings proof <> mapMaybe tooFar (contourProofs proof),
-      controlFindings
+      controlFindings,
+      mayLeave = p
     }
   where
     demand = demandOf machine form heading program

@@ -99,7 +99,8 @@ summarized isRestarted subject contourProofs findings =
       Proof.largestIncrement = TapeSummary.largestIncrement (summary subject),
       Proof.firstDifference = TapeSummary.firstDifference (summary subject),
       Proof.findings = sortOn Proof.tapeOrder findings,
-      Proof.controlFindings = []
+      Proof.controlFindings = [],
+      Proof.mayLeave = Mm 0
     }
 
 -- | Proof by comparison of all motions with the part.

@@ -93,7 +93,10 @@ data Proof = Proof
     -- | in the order of the tape; empty if the tape is proven
     findings :: [Finding],
     -- | faults of the state of a modern control; empty for a tape
-    controlFindings :: [ControlFinding]
+    controlFindings :: [ControlFinding],
+    -- | what a modern control may leave the path by, and what positions are away from the grid of
+    -- the machine, in mm; it counts in all deviations
+    mayLeave :: Mm
   }
   deriving stock (Eq, Show)
 

@@ -60,7 +60,7 @@ spec = describe "files for modern controls" $ do
       programOf
         (machineNamed "linuxcnc-mill")
         (Pulses3 0 0 20000)
-        [(CommandState.initial, line (Pulses3 1000 0 0))]
+        [(CommandState.initial {tool = Just 1}, line (Pulses3 1000 0 0))]
 
 machineNamed :: Text -> Machine
 machineNamed name = fromMaybe (error "no such machine") (BuiltIn.find (MachineName name))
@@ -119,13 +119,13 @@ programs machine = do
     ( programOf
         machine
         (Pulses3 1000 (-2000) (Pulses z))
-        (zip (scanl1 keep states) (take count (first <> moves)))
+        (zip (drop 1 (scanl keep (CommandState.initial {tool = Just 1}) states)) (take count (first <> moves)))
     )
   where
     keep earlier now = if isNothing (tool now) then now {tool = tool earlier} else now
     states' =
       CommandState
-        <$> frequency [(6, pure Nothing), (1, Just <$> elements [2, 3, 4])]
+        <$> frequency [(6, pure Nothing), (1, Just <$> elements [1, 2, 3, 4])]
         <*> oneof
           [ pure Nothing,
             curry Just <$> elements [Clockwise, CounterClockwise] <*> (Just <$> choose (100, 9000))
@@ -145,7 +145,7 @@ programs machine = do
 programOf :: Machine -> Pulses3 -> [(CommandState, Frame)] -> FrameProgram
 programOf machine start moves = FrameProgram start (map planned (concat made <> rest <> ends))
   where
-    ((_, left), made) = mapAccumL add (CommandState.initial, Nothing) moves
+    ((_, left), made) = mapAccumL add (CommandState.initial {tool = Just 1}, Nothing) moves
     rest = [Frame.commandFrame (given p) | p <- maybeToList left]
     ends = map Frame.commandFrame (Command.finalFrames machine)
     planned f = PlannedFrame f Linking (Region 0 0) (Mm 0)
