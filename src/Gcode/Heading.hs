@@ -14,7 +14,7 @@ where
 import Base.Decimal qualified as Decimal
 import Base.Name (Name (..))
 import Base.PulseVector (Pulses3 (..))
-import Base.Quantity (Mm (..), Pulses (..), times)
+import Base.Quantity (LengthUnit, Mm (..), Pulses (..), times)
 import Base.Region (Located (..))
 import Data.Containers.ListUtils (nubOrdOn)
 import Data.List.NonEmpty qualified as NonEmpty
@@ -97,8 +97,9 @@ fromToolpath path =
     commands = [value c | Toolpath.Commanding c <- blocks]
     firstTool = value <$> Toolpath.firstToolNumber setup
     numbered = [(n, c) | Just n <- [firstTool], Just c <- [Toolpath.firstCutter setup]]
-    first = [(n, cutterText c) | (n, c) <- numbered]
-    changed = [(n, cutterText cutter) | Part.ChangeTool n cutter <- commands]
+    unit = Toolpath.unit path
+    first = [(n, cutterText unit c) | (n, c) <- numbered]
+    changed = [(n, cutterText unit cutter) | Part.ChangeTool n cutter <- commands]
 
 -- | Safe height in mm on a control that needs one: that of the program, or else that of the
 -- description. Nothing on other controls, and if neither states one.
@@ -163,14 +164,15 @@ highestClearance path = case clearances path of
   heights -> maximum heights
 
 -- | Description of a tool: its kind and its diameter, or the radius of its nose.
-cutterText :: Cutter -> Text
-cutterText cutter = case Part.kind cutter of
+cutterText :: LengthUnit -> Cutter -> Text
+cutterText unit cutter = case Part.kind cutter of
   Part.MillingCutter -> "mill, diameter " <> diameter
   Part.ConeCutter -> "cone, diameter " <> diameter
   Part.DovetailCutter -> "dovetail, diameter " <> diameter
   Part.BladeCutter _ -> "blade, diameter " <> diameter
   Part.DrillingCutter -> "drill, diameter " <> diameter
-  Part.TurningCutter -> "turning tool, nose radius " <> Decimal.mm (Part.cutterRadius cutter) <> tip
+  Part.TurningCutter -> "turning tool, nose radius " <> inUnit (Part.cutterRadius cutter) <> tip
   where
     tip = maybe "" (\n -> ", tip " <> Decimal.whole n) (Part.tip cutter)
-    diameter = Decimal.mm (times 2 (Part.cutterRadius cutter))
+    diameter = inUnit (times 2 (Part.cutterRadius cutter))
+    inUnit = Decimal.inUnit unit
