@@ -8,12 +8,15 @@ module GcodeJudge
   ( Verdict (..),
     Reason (..),
     verdict,
+    clearsTheSame,
     reasonText,
   )
 where
 
-import Data.Maybe (isNothing)
-import Data.List (nub)
+import Data.List (isPrefixOf, nub)
+import Data.Map.Strict (Map)
+import Data.Map.Strict qualified as Map
+import Data.Maybe (fromMaybe, isNothing)
 import GcodeTrace (Control (..), Event (..), Place, above, codeOf, trace)
 
 -- | Verdict about an edited file.
@@ -49,6 +52,8 @@ data Reason
     StopAbove
   | -- | M30 in place of M2
     OtherEnd
+  | -- | other loops of a pocket that clear the same
+    OtherLoops
   deriving stock (Eq, Ord, Show, Enum, Bounded)
 
 -- | Words for a reason.
@@ -65,6 +70,7 @@ reasonText reason = case reason of
   IdleState -> "spindle or coolant differ only at the retract height or after the last motion"
   StopAbove -> "a stop at the retract height, over the same point"
   OtherEnd -> "M30 in place of M2"
+  OtherLoops -> "other loops of a pocket that clear the same"
 
 -- | Compares an edited file with the one before the edit. @allowed@ is the tolerance of the program
 -- and one pulse, in mm.
@@ -72,8 +78,8 @@ verdict :: Double -> [String] -> [String] -> Verdict
 verdict allowed before after = case (trace before, trace after) of
   (Left why, _) -> Changed ("the file before the edit is not understood: " <> why)
   (_, Left why) -> Changed why
-  (Right old, Right new) -> case concat (changes allowed old new) of
-    why : _ -> Changed why
+  (Right old, Right new) -> case changes allowed old new of
+    (_, why) : _ -> Changed why
     []
       | old == withLines old new, codes before == codes after -> Same [Just NotRead]
       | otherwise -> Same (nub (reasons allowed old new (before, after)))
@@ -95,25 +101,42 @@ withLines old new
 
 -- Changes -----------------------------------------------------------------------------------------
 
+-- | A change of the path only, or also of something else.
+data ChangeKind = InPath | InState
+  deriving stock (Eq)
+
 -- | Differences that change what is cut, or cut in an unsafe state.
-changes :: Double -> [Event] -> [Event] -> [[String]]
+changes :: Double -> [Event] -> [Event] -> [(ChangeKind, String)]
 changes allowed old new =
-  [ ["cuts are lost or added" | length (cuts old) /= length (cuts new)],
-    concat (zipWith (changedCut allowed) (cuts old) (cuts new)),
-    ["rapid moves in the material" | not (sameLow allowed (lowRapids old) (lowRapids new))],
-    concatMap (unsafeMove allowed demanded) new,
-    ["another stop" | stopsOf old /= stopsOf new],
-    ["another wait" | not (sameWaits (waitsOf old) (waitsOf new))]
-  ]
+  cutChanges
+    <> map
+      (InState,)
+      ( ["rapid moves in the material" | not (sameLow allowed (lowRapids old) (lowRapids new))]
+          <> concatMap (unsafeMove allowed demanded) new
+          <> ["another stop" | isSameCount, stopsOf old /= stopsOf new]
+          <> ["another wait" | isSameCount, not (sameWaits (waitsOf old) (waitsOf new))]
+      )
   where
+    isSameCount = length (cuts old) == length (cuts new)
+    cutChanges
+      | isSameCount = concat (zipWith (changedCut allowed) (withNeighbours (cuts old)) (withNeighbours (cuts new)))
+      | otherwise = [(InPath, "cuts are lost or added")]
     demanded = case cuts old of
       Moves _ _ _ _ _ c : _ -> offset c
       _ -> Nothing
     sameWaits as bs = map fst as == map fst bs && and (zipWith (\a b -> abs (snd a - snd b) < 0.0005) as bs)
 
--- | Motions that cut. A line without length is none.
+-- | Motions that cut. A line without length is none, and one to the machine's zero of z or from
+-- there neither.
 cuts :: [Event] -> [Event]
-cuts events = [e | e@(Moves _ k from to _ _) <- events, k > 0, k > 1 || from /= to]
+cuts events = [e | e@(Moves _ k from to _ _) <- events, k > 1 || k > 0 && isCut from to]
+  where
+    isCut from to = from /= to && all ((/= Just above) . heightOf) [from, to]
+
+heightOf :: Place -> Maybe Double
+heightOf p = case drop 2 p of
+  z : _ -> z
+  [] -> Nothing
 
 -- | Things that happen, each with the count of cuts before it.
 counted :: (Event -> Maybe a) -> [Event] -> [(Int, a)]
@@ -134,16 +157,35 @@ waitsOf = counted $ \e -> case e of
   Waits s False -> Just s
   _ -> Nothing
 
+-- | Each cut with the paths of its neighbours and of itself.
+withNeighbours :: [Event] -> [(Event, [[Place]])]
+withNeighbours list = zip list (zipWith (\a b -> a <> b) before (map (take 2) (suffixes paths)))
+  where
+    paths = map path list
+    before = [] : map pure paths
+    suffixes xs = if null xs then [] else xs : suffixes (drop 1 xs)
+
 -- | Differences of two cuts.
-changedCut :: Double -> Event -> Event -> [String]
-changedCut allowed old new = case (old, new) of
+changedCut :: Double -> (Event, [[Place]]) -> (Event, [[Place]]) -> [(ChangeKind, String)]
+changedCut allowed (old, oldPaths) (new, newPaths) = case (old, new) of
   (Moves _ k from to middle c, Moves n k' from' to' middle' c') ->
-    [ "line " <> show n <> ": " <> what
-      | (True, what) <-
-          [ (k /= k', "another kind of cut"),
-            (distance from from' > allowed || distance to to' > allowed, "a cut elsewhere"),
-            (apart middle middle', "an arc about another centre"),
-            (differs 0.5 (feed c) (feed c'), "another feed"),
+    [ (kind, "line " <> show n <> ": " <> what)
+      | (kind, True, what) <-
+          [ (InPath, (k, from, to, middle) /= (k', from', to', middle') && isElsewhere, "a cut elsewhere")
+          ]
+            <> map
+              (\(is, what) -> (InState, is, what))
+              (stateChanges k c c')
+    ]
+  _ -> [(InState, "no cuts")]
+  where
+    isElsewhere = any (isOff oldPaths) (path new) || any (isOff newPaths) (path old)
+    isOff paths p = all (\way' -> awayFrom way' p > allowed + 0.001) paths
+
+-- | Differences of the states of two cuts of a kind.
+stateChanges :: Int -> Control -> Control -> [(Bool, String)]
+stateChanges k c c' =
+          [ (differs 0.5 (feed c) (feed c'), "another feed"),
             (differs 0.5 (rpm c) (rpm c') || turns c /= turns c', "the spindle"),
             (plane c' /= Just 17, "the plane"),
             (feedWay c' /= Just 94, "the kind of feed"),
@@ -151,12 +193,112 @@ changedCut allowed old new = case (old, new) of
             (loaded c /= loaded c', "another tool"),
             (coolants c /= coolants c', "the coolant")
           ]
-    ]
-  _ -> ["no cuts"]
+
+-- | Points along a motion, at most 0.3 mm apart, and so near that their chords leave an arc by less
+-- than 0.001 mm.
+path :: Event -> [Place]
+path event = case event of
+  Moves _ k [Just x, Just y, Just z] [Just x', Just y', Just z'] middle _ -> case middle of
+    Nothing ->
+      [ map Just [x + t * (x' - x), y + t * (y' - y), z + t * (z' - z)]
+        | t <- steps (sqrt ((x' - x) ^ two + (y' - y) ^ two + (z' - z) ^ two) / 0.3)
+      ]
+    Just (i, j) ->
+      [ map Just [i + r * cos a, j + r * sin a, z + t * (z' - z)]
+        | t <- steps (abs turned * max 20 (radius x y / 0.3)),
+          let a = begin + t * turned
+              r = radius x y + t * (radius x' y' - radius x y)
+      ]
+      where
+        radius a b = sqrt ((a - i) ^ two + (b - j) ^ two)
+        begin = atan2 (y - j) (x - i)
+        rest = atan2 (y' - j) (x' - i) - begin
+        turned
+          | k == 2 = if rest >= -1e-9 then rest - 2 * pi else rest
+          | otherwise = if rest <= 1e-9 then rest + 2 * pi else rest
+  _ -> []
   where
-    apart a b = case (a, b) of
-      (Just (x, y), Just (x', y')) -> distance [Just x, Just y] [Just x', Just y'] > allowed
+    two = 2 :: Int
+    steps :: Double -> [Double]
+    steps length' = let n = max 1 (ceiling length') :: Int in [fromIntegral m / fromIntegral n | m <- [0 .. n]]
+
+-- | Distance of a position from a chain of straight lines.
+awayFrom :: [Place] -> Place -> Double
+awayFrom chain p = case chain of
+  [] -> 1e9
+  [a] -> distance a p
+  _ -> minimum (zipWith segment chain (drop 1 chain))
+  where
+    segment a b = case (sequence a, sequence b, sequence p) of
+      (Just a', Just b', Just p') ->
+        let along = zipWith (-) b' a'
+            square = sum (map (\v -> v * v) along)
+            t = if square == 0 then 0 else max 0 (min 1 (sum (zipWith (*) along (zipWith (-) p' a')) / square))
+         in distance (map Just p') [Just (v + t * d) | (v, d) <- zip a' along]
+      _ -> 1e9
+
+-- Pockets -----------------------------------------------------------------------------------------
+
+-- | Test that the motions of an edited file differ only in their path, at the same states and
+-- heights, that the tools clear the same cells of a raster, and that wherever only one of the files
+-- cuts, it does so inside a round loop.
+clearsTheSame :: Double -> [String] -> [String] -> Bool
+clearsTheSame allowed before after = case (trace before, trace after) of
+  (Right old, Right new) ->
+    and [kind == InPath | (kind, _) <- changes allowed old new]
+      && all (`elem` map states (cuts old)) (map states (cuts new))
+      && isInner old old new
+      && isInner old new old
+  _ -> False
+  where
+    radii = toolRadii before
+    isInner old a b =
+      all (\(_, p) -> any (isInLoop p) (cuts old)) (pointsOff a b)
+        && cleared radii 0.3 (pointsOf a) `isWithin` cleared radii 0 (pointsOf b)
+    pointsOf events = [(loaded c, p) | e@(Moves _ _ _ _ _ c) <- cuts events, p <- path e]
+    -- Inside the circle of a loop at the same height, the tool stays in what the loop surrounds.
+    isInLoop p event = case (event, p) of
+      (Moves _ _ [Just x, Just y, Just z] _ (Just (i, j)) _, [Just px, Just py, Just pz]) ->
+        hypotenuse (px - i) (py - j) <= hypotenuse (x - i) (y - j) && abs (pz - z) < 1e-9
       _ -> False
+    hypotenuse a b = sqrt (a * a + b * b)
+    pointsOff a b = [(n, p) | (n, p) <- pointsOf a, all (\e -> awayFrom (path e) p > allowed) (cuts b)]
+    states event = case event of
+      Moves _ _ from to _ c -> (heightOf from, heightOf to, (feed c, rpm c, turns c), (loaded c, coolants c))
+      _ -> (Nothing, Nothing, (Nothing, Nothing, Nothing), (Nothing, []))
+    isWithin a b = and [maybe False (<= z + allowed) (Map.lookup cell b) | (cell, z) <- Map.toList a]
+
+-- | Radii of the tools, from the comments at the head of a file.
+toolRadii :: [String] -> [(Int, Double)]
+toolRadii file =
+  [ (read (takeWhile (/= ':') n), read (takeWhile (/= ' ') d) / 2)
+    | line <- file,
+      "(tool" `isPrefixOf` line,
+      (n : ws) <- [drop 1 (words line)],
+      (d : _) <- [drop 1 (dropWhile (/= "diameter") ws)]
+  ]
+
+-- | Lowest height in each cell of 0.25 mm that tools at these positions clear, with radii that are
+-- smaller by an amount.
+cleared :: [(Int, Double)] -> Double -> [(Maybe Int, Place)] -> Map (Int, Int) Double
+cleared radii less points =
+  Map.fromListWith
+    min
+    [ (cell, z)
+      | (Just tool, place) <- points,
+        let r = fromMaybe 0 (lookup tool radii) - less,
+        Just [x, y, z] <- [sequence place],
+        z < 0,
+        cell <- cellsAround r x y
+    ]
+  where
+    cellsAround r x y =
+      [ (i, j)
+        | i <- [ceiling ((x - r) / size) .. floor ((x + r) / size)],
+          j <- [ceiling ((y - r) / size) .. floor ((y + r) / size)],
+          (fromIntegral i * size - x) ^ (2 :: Int) + (fromIntegral j * size - y) ^ (2 :: Int) <= r * r
+      ]
+    size = 0.25 :: Double
 
 -- | Test that two numbers differ by more than a half: rates are rounded.
 differs :: Double -> Maybe Double -> Maybe Double -> Bool
@@ -194,8 +336,8 @@ unsafeMove allowed demanded event = case event of
   Moves n _ from to _ c ->
     [ "line " <> show n <> ": " <> what
       | (True, what) <-
-          [ (sideways from to && height from /= Just above, "sideways at an unknown height"),
-            (isNothing (height to), "to an unknown height"),
+          [ (sideways from to && heightOf from /= Just above, "sideways at an unknown height"),
+            (isNothing (heightOf to), "to an unknown height"),
             (isLow to && any isNothing to, "down at an unknown place"),
             (isLow to && (lengthOf c /= loaded c || isNothing (loaded c)), "the length of the tool"),
             (isLow to && offset c /= demanded, "the work offset"),
@@ -204,27 +346,31 @@ unsafeMove allowed demanded event = case event of
             ((isLow from || isLow to) && maybe True (> allowed + 1e-9) (blending c), "the path mode")
           ]
     ]
+  Changes p | heightOf p /= Just above -> ["the tool is changed too low"]
   _ -> []
   where
-    height p = case drop 2 p of
-      z : _ -> z
-      [] -> Nothing
-    sideways a b = take 2 a /= take 2 b && isNothing (height a)
-    isLow p = maybe False (< above) (height p)
+    sideways a b = take 2 a /= take 2 b && isNothing (heightOf a)
+    isLow p = maybe False (< above) (heightOf p)
 
 -- Reasons -----------------------------------------------------------------------------------------
 
 -- | Differences of two files that cut the same, each with its reason.
 reasons :: Double -> [Event] -> [Event] -> ([String], [String]) -> [Maybe Reason]
-reasons allowed old new files = if null found then [Just InForce] else found
+reasons allowed old new files = case filter (/= Just InForce) found of
+  [] -> [Just InForce]
+  others -> others
   where
     found =
       concat (zipWith (cutReasons allowed) (cuts old) (cuts new))
         <> concat (zipWith (gapReasons allowed) (gaps old) (gaps new))
         <> [Just SpindleWait | spins old /= spins new]
         <> [Just IdleState | idle old /= idle new]
-        <> [Just StopAbove | stopPlaces old /= stopPlaces new]
+        <> zipWith stopReason (stopPlaces old) (stopPlaces new)
         <> [Just OtherEnd | ends (fst files) /= ends (snd files)]
+    stopReason a b
+      | a == b = Just InForce
+      | heightOf b == Just above && take 2 a == take 2 b = Just StopAbove
+      | otherwise = if distance a b <= allowed then Just InTolerance else Nothing
     spins = counted $ \e -> case e of
       Waits s True -> Just s
       _ -> Nothing
@@ -270,25 +416,21 @@ gapReasons allowed old new
   | map fst old == map fst new = states
   | length old == length new && and (zipWith (near `onFirst`) old new) = Just InTolerance : states
   | merged old == merged new = [Just DividedMove]
-  | isAway old && isAway new && ways old `near'` ways new = [Just AboveAll]
+  | (isAway old || isAway new) && all (\p -> awayFrom (ways old) p <= allowed) (ways new) = [Just AboveAll]
   | otherwise = [Nothing]
   where
     onFirst f a b = f (fst a) (fst b)
     near a b = a == b || distance a b <= allowed
-    near' as bs = length as == length bs && and (zipWith near as bs)
-    isAway route = or [True | ([_, _, Just z], _) <- route, z == above]
-    ways route = [p | p <- merged route, p /= [] , notAbove p]
-    notAbove p = case p of
-      [_, _, Just z] -> z < above
-      _ -> False
+    isAway route = any ((== Just above) . heightOf . fst) route
+    ways route = [p | (p, _) <- route, notAbove p]
+    notAbove p = maybe False (< above) (heightOf p)
     merged = straightened . map fst
     states =
       [Just OtherBound | map (blending . snd) old /= map (blending . snd) new]
         <> [ Nothing
-             | or [isWorking a && used c /= used c' | ((a, c), (_, c')) <- zip old new]
+             | or [notAbove a && used c /= used c' | ((a, c), (_, c')) <- zip old new]
            ]
-    isWorking p = notAbove p
-    used c = (coolants c, turns c, loaded c, lengthOf c, offset c)
+    used c = (coolants c, turns c, loaded c, (lengthOf c, offset c))
 
 -- | Positions without those in the line between their neighbours.
 straightened :: [Place] -> [Place]

@@ -58,8 +58,10 @@ data Event
     Moves Int Int Place Place (Maybe (Double, Double)) Control
   | -- | M0 or M1
     Stops Int
-  | -- | seconds; true if only the start of the spindle came since the last motion
+  | -- | seconds; true if the spindle started and nothing was cut since
     Waits Double Bool
+  | -- | M6, with the position
+    Changes Place
   | Ends
   deriving stock (Eq, Show)
 
@@ -175,9 +177,10 @@ runLine n ws now = do
       waits = [Waits s (isStarting now || starts) | has ('G', 4), Just s <- [value 'P']]
       stops = [Stops (round m) | ('M', m) <- codes, m `elem` [0, 1]]
       isEnd = has ('M', 2) || has ('M', 30)
+      cutsNow = or [k > 0 | Moves _ k _ _ _ _ <- motion]
   Right
-    ( ended {isStarting = null motion && (isStarting now || starts), isOver = isEnd},
-      waits <> motion <> stops <> [Ends | isEnd]
+    ( ended {isStarting = not cutsNow && (isStarting now || starts), isOver = isEnd},
+      [Changes (place now) | has ('M', 6)] <> waits <> motion <> stops <> [Ends | isEnd]
     )
   where
     only group = filter (`elem` group)
@@ -205,11 +208,16 @@ afterChange has value c
   where
     set =
       c
-        { feed = maybe (feed c) (Just . (* unit)) (value 'F'),
+        { feed = newFeed,
           rpm = maybe (rpm c) Just (value 'S'),
           selected = maybe (selected c) (Just . round) (value 'T')
         }
-    unit = if isMetric c == Just False then 25.4 else 1
+    -- F counts in the units before the line, and G94 takes the feed away.
+    newFeed = case value 'F' of
+      Just f -> (\isMm -> if isMm then f else 25.4 * f) <$> isMetric c
+      Nothing
+        | any (has . ('G',)) [93, 94, 95] -> Nothing
+        | otherwise -> feed c
 
 -- | State after the other words.
 afterModes :: ((Char, Double) -> Bool) -> (Char -> Maybe Double) -> Control -> Control
@@ -263,7 +271,8 @@ displaced old new now
 -- | Motion of a line.
 moveOf :: Int -> ((Char, Double) -> Bool) -> [(Char, Double)] -> Run -> Either String (Run, [Event])
 moveOf n has values now
-  | null axes = if has ('G', 53) || arcs then Left "a motion to nowhere" else Right (now, [])
+  | has ('G', 53) && null axes = Left "a motion to nowhere"
+  | null axes && not (arcs && maybe False (> 1) (way c)) = Right (now, [])
   | otherwise = case way c of
     Nothing -> Left "no kind of motion"
     Just k

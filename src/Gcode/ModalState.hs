@@ -68,8 +68,9 @@ data Spindle = SpindleStopped | SpindleTurning Sense
 data ToolLength = NoLength | LengthOf Int | LengthOfOther
   deriving stock (Eq, Show)
 
-data Coolant = CoolantOff | CoolantRunning
-  deriving stock (Eq, Show)
+-- | Coolant: off, mist (M7), flood (M8), or both.
+data Coolant = CoolantOff | Mist | Flood | MistAndFlood
+  deriving stock (Eq, Ord, Show)
 
 -- | Path at corners: exact, or with a deviation of at most so many mm; Nothing if the deviation has
 -- no bound.

@@ -19,7 +19,7 @@ where
 
 import Base.Quantity (Mm (..), Seconds (..))
 import Control.Monad (foldM, forM_, unless, when)
-import Data.Maybe (fromMaybe, isJust, listToMaybe, mapMaybe)
+import Data.Maybe (fromMaybe, isJust, isNothing, listToMaybe, mapMaybe)
 import Data.Text (Text)
 import Data.Text qualified as Text
 import Gcode.Block
@@ -39,8 +39,9 @@ data Step = Step
 
 data Action
   = Travels Travel
-  | -- | the control takes the tool with this number; Nothing if no T word came before
-    Changes (Maybe Int)
+  | -- | the control takes the tool with this number, at a position; Nothing if no T word came
+    -- before
+    Changes ToolPlace (Maybe Int)
   | Dwells Seconds
   | -- | M0
     Stops
@@ -122,7 +123,7 @@ runBlock :: ProgramForm -> Running -> GcodeBlock -> Either Fault (Running, [Step
 runBlock form now b = do
   s <- sorted form b
   when (isEnded now && not (null (gcodeWords b))) (faultAt b 1 BehindEnd)
-  before <- modesBefore s (modal now)
+  before <- modesBefore (dialect form) s (modal now)
   (changed, changeSteps) <- toolChange s now {modal = before}
   let running = modesBehind form s changed
   dwelt <- dwellOf form s
@@ -198,17 +199,29 @@ given :: Char -> Sorted -> Maybe GcodeNumber
 given c s = listToMaybe [number w | w <- others s, letter w == c]
 
 -- | The modes that are set before a tool change: feed mode, feed, speed and selected tool.
-modesBefore :: Sorted -> ModalState -> Either Fault ModalState
-modesBefore s m = do
+modesBefore :: Dialect -> Sorted -> ModalState -> Either Fault ModalState
+modesBefore dialect' s m = do
   tool <- traverse whole (given 'T' s)
   pure
     m
       { feedMode = choose (feedMode m) [(930, InverseTime), (940, PerMinute), (950, PerTurn)],
         speed = maybe (speed m) (SetAt n . decimal) (given 'S' s),
         selectedTool = maybe (selectedTool m) (SetAt n) tool,
-        units = choose (units m) [(200, Inches), (210, Millimetres)]
+        units = newUnits,
+        feed = feedAfter
       }
   where
+    newUnits = choose (units m) [(200, Inches), (210, Millimetres)]
+    -- LinuxCNC takes F before the units of the same line, and its words for the kind of feed set
+    -- the feed to 0.
+    feedAfter = case given 'F' s of
+      Just k
+        | dialect' /= LinuxCnc -> SetAt n (mmOfNumber m {units = newUnits} k)
+        | isNothing (valueOf (units m)) -> Unset
+        | otherwise -> SetAt n (mmOfNumber m k)
+      Nothing
+        | dialect' == LinuxCnc && any (`elem` gCodes s) [930, 940, 950] -> SetAt n 0
+        | otherwise -> feed m
     n = lineNumber (block s)
     choose = chosen n (gCodes s)
     whole k = case isWhole k of
@@ -236,7 +249,7 @@ toolChange s now
   | otherwise =
     Right
       ( now {modal = changed, place = ToolPlace Anywhere Anywhere height},
-        [Step n changed (Changes (valueOf (selectedTool m)))]
+        [Step n changed (Changes (place now) (valueOf (selectedTool m)))]
       )
   where
     n = lineNumber (block s)
@@ -269,8 +282,7 @@ modesBehind form s now = now {modal = changed, place = placeAfter form m changed
                 (40, SpindleTurning CounterClockwise),
                 (50, SpindleStopped)
               ],
-          coolant =
-            chooseM (coolant m) [(70, CoolantRunning), (80, CoolantRunning), (90, CoolantOff)],
+          coolant = coolantAfter n (mCodes s) (coolant m),
           plane = choose (plane m) [(170, PlaneXY), (180, PlaneZX), (190, PlaneYZ)],
           diameters = choose (diameters m) [(70, True), (80, False)],
           compensates = choose (compensates m) [(400, False)],
@@ -279,7 +291,6 @@ modesBehind form s now = now {modal = changed, place = placeAfter form m changed
           pathMode = choose (pathMode m) [(610, ExactPath), (611, ExactPath), (640, blended s m)],
           distances = choose (distances m) [(900, Absolute), (910, Incremental)],
           arcCentres = choose (arcCentres m) [(901, Absolute), (911, Incremental)],
-          feed = maybe (feed m) (SetAt n . mmOfNumber m) (given 'F' s),
           motionMode = motionAfter s m
         }
 
@@ -296,8 +307,9 @@ lengthAfter s m
 
 -- | The path mode of G64. Q is the tolerance of the merging of short motions; without Q it is P.
 blended :: Sorted -> ModalState -> PathMode
-blended s m = Blended $ case given 'P' s of
-  Just p | digits p > 0 -> Just (Mm (mm p + maybe (mm p) mm (given 'Q' s)))
+blended s m = Blended $ case (given 'P' s, given 'Q' s) of
+  (Just p, Nothing) | digits p > 0 -> Just (Mm (2 * mm p))
+  (Just p, Just q) | digits p > 0, digits q >= 0 -> Just (Mm (mm p + mm q))
   _ -> Nothing
   where
     mm = mmOfNumber m
@@ -334,6 +346,18 @@ placeAfter form before after p
       Retracted -> Retracted
       Anywhere -> Anywhere
 
+-- | Coolant after a line with these M codes. Mist and flood may run together.
+coolantAfter :: Int -> [Int] -> Modal Coolant -> Modal Coolant
+coolantAfter n codes before
+  | 90 `elem` codes = SetAt n CoolantOff
+  | 70 `elem` codes = with Mist Flood
+  | 80 `elem` codes = with Flood Mist
+  | otherwise = before
+  where
+    with new other
+      | valueOf before `elem` [Just other, Just MistAndFlood] = SetAt n MistAndFlood
+      | otherwise = SetAt n new
+
 -- | Value in mm of a number, in the units of the state.
 mmOfNumber :: ModalState -> GcodeNumber -> Double
 mmOfNumber m k = decimal k * (if valueOf (units m) == Just Inches then 25.4 else 1)
@@ -365,31 +389,31 @@ dwellOf form s
 -- | Carries out the motion of a line.
 motionOf :: ProgramForm -> Sorted -> Running -> Either Fault (Running, [Step])
 motionOf form s now
-  | 40 `elem` gCodes s = withoutAxes >> Right (now, [])
+  | 40 `elem` gCodes s = wordsBesideDwell form s >> Right (now, [])
   | 280 `elem` gCodes s = toReference form s now
-  | null axisWords && null arcWords = unusedWords s >> Right (now, [])
+  | 530 `elem` gCodes s && null axisWords = faultAt b 1 (WordMissing "Z0" "G53")
+  | null axisWords && null arcWords = unusedWords s now >> Right (now, [])
   | otherwise = do
     mode' <- maybe (faultAt b 1 NoMotionMode) Right (valueOf (motionMode (modal now)))
     target <- targetOf form s now
     centre' <- case mode' of
       ArcMode sense -> Just <$> arcCentre s sense now target
       _ -> Right Nothing
-    unusedWords s
+    unusedWords s now
     let travel = Travel mode' (place now) target centre'
         -- The machine takes the tool to where the target is, so the state keeps it.
         moved = now {place = target}
     pure (moved, [Step (lineNumber b) (modal now) (Travels travel)])
   where
     b = block s
-    -- A dwell of Fanuc may have its time in a word X.
-    withoutAxes = case filter (\w -> letter w /= 'X' || dialect form /= Fanuc) axisWords of
-      w : _ -> faultOf b w (RepeatedWord (wordText w))
-      [] -> Right ()
     axisWords = [w | w <- others s, letter w `elem` ("XYZ" :: String)]
-    arcWords = [w | w <- others s, letter w `elem` ("IJKR" :: String), isArc]
-    isArc = case valueOf (motionMode (modal now)) of
-      Just (ArcMode _) -> True
-      _ -> False
+    arcWords = [w | w <- others s, letter w `elem` ("IJKR" :: String), isArc (modal now)]
+
+-- | True if the kind of motion in force is an arc.
+isArc :: ModalState -> Bool
+isArc m = case valueOf (motionMode m) of
+  Just (ArcMode _) -> True
+  _ -> False
 
 -- | Position at the end of the motion of a line.
 targetOf :: ProgramForm -> Sorted -> Running -> Either Fault ToolPlace
@@ -411,7 +435,7 @@ targetOf form s now = ToolPlace <$> along 'X' placeX <*> along 'Y' placeY <*> al
     inMachine c k
       | valueOf (motionMode m) `notElem` [Just RapidMode, Just LinearMode] =
         faultAt b 1 (WordMissing "G0" "G53")
-      | valueOf (distances m) == Just Incremental = faultAt b 1 (WordMissing "G90" "G53")
+      | valueOf (distances m) /= Just Absolute = faultAt b 1 (WordMissing "G90" "G53")
       | c == 'Z',
         MachineHeight (Mm h) <- retract form,
         isJust (valueOf (units m)) || digits k == 0,
@@ -495,17 +519,26 @@ centreByRadius sense radius (x, y) (x', y')
     k = side * sqrt (max 0 h2) / chord
     side = if (sense == CounterClockwise) == (radius > 0) then 1 else -1
 
+-- | Refuses words of motions in the line of a dwell: some controls would move as well. Fanuc has
+-- the time in X.
+wordsBesideDwell :: ProgramForm -> Sorted -> Either Fault ()
+wordsBesideDwell form s = case filter isOfMotion (others s) of
+  w : _ -> faultOf (block s) w (UnusedWord (Text.singleton (letter w)))
+  [] -> Right ()
+  where
+    isOfMotion w =
+      letter w `elem` ("XYZIJKRHQ" :: String) && not (letter w == 'X' && dialect form == Fanuc)
+
 -- | Refuses words that nothing in the line uses.
-unusedWords :: Sorted -> Either Fault ()
-unusedWords s = case mapMaybe unused (others s) of
+unusedWords :: Sorted -> Running -> Either Fault ()
+unusedWords s now = case mapMaybe unused (others s) of
   w : _ -> faultOf (block s) w (UnusedWord (Text.singleton (letter w)))
   [] -> Right ()
   where
     gs = gCodes s
-    isArcLine = any (`elem` gs) [20, 30] || any ((`elem` ("IJKR" :: String)) . letter) (others s)
     unused w
       | letter w `elem` ("XYZFSTNO" :: String) = Nothing
-      | letter w `elem` ("IJKR" :: String) = if isArcLine then Nothing else Just w
+      | letter w `elem` ("IJKR" :: String) = if isArc (modal now) then Nothing else Just w
       | letter w == 'H' = if 430 `elem` gs then Nothing else Just w
       | letter w == 'P' = if any (`elem` gs) [40, 640] then Nothing else Just w
       | letter w == 'Q' = if 640 `elem` gs then Nothing else Just w

@@ -62,7 +62,7 @@ data Converting = Converting
     isAway :: Bool,
     commanded :: CommandState,
     pending :: Maybe Pending,
-    -- | line of the last start of the spindle for which the file has waited
+    -- | line of the last start of the spindle for which the file has waited, or has cut without
     waitedFor :: Maybe Int,
     -- | the latest frame first
     made :: [ReadFrame],
@@ -98,8 +98,8 @@ reading machine level FirstTool {firstNumber, tipsOfTools} start list =
 -- | Converts one action.
 converted :: Machine -> Maybe Pulses -> Converting -> Step -> Converting
 converted machine level c step = case action step of
-  Travels travel -> travelled machine level (withCommands machine step) c step travel
-  Changes _ -> c
+  Travels travel -> travelled machine level (withCommands machine step) (cutting travel) step travel
+  Changes _ _ -> c
   Dwells t
     | isStart, waitedFor c /= started -> c {waitedFor = started}
     | otherwise -> event (Part.Dwell t)
@@ -111,7 +111,10 @@ converted machine level c step = case action step of
       c
       (Command.finalFrames machine)
   where
-    -- The first dwell after a start of the spindle waits for the spindle.
+    -- The first dwell after a start of the spindle waits for the spindle, if nothing is cut before.
+    cutting travel
+      | mode travel /= RapidMode, isStart = c {waitedFor = started}
+      | otherwise = c
     started = lineOf (Gcode.ModalState.spindle (state step))
     isStart = case valueOf (Gcode.ModalState.spindle (state step)) of
       Just (SpindleTurning _) -> True
@@ -180,7 +183,7 @@ stateOf m =
       CommandState.spindle = case valueOf (Gcode.ModalState.spindle m) of
         Just (SpindleTurning sense) -> Just (senseOf sense, round <$> valueOf (speed m))
         _ -> Nothing,
-      coolantRuns = valueOf (coolant m) == Just CoolantRunning
+      coolantRuns = valueOf (coolant m) `notElem` [Nothing, Just CoolantOff]
     }
   where
     senseOf sense = case sense of

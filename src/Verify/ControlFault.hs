@@ -13,6 +13,7 @@ import Base.Quantity (Mm (..))
 import Base.Region (Region)
 import Data.Maybe (isNothing)
 import Data.Text (Text)
+import Gcode.ModalState (Coolant (..))
 import Machine.ProgramForm (Lathe (..), ProgramForm (..), Retract (..), XMeaning (..))
 import Report.Report (Report (hints, label, message, others), ReportCode, ReportPlace (..), report)
 import Report.Report qualified as Report
@@ -50,10 +51,17 @@ data ControlFault
     XInRadii
   | -- | the feed is per turn or the inverse of a time
     NotPerMinute
+  | -- | no line sets the feed, or it is 0
+    NoFeed
+  | -- | the coolant is not the one that the program switches on
+    OtherCoolant Coolant
   | -- | the work offset that the program asks for, and that of the file; Nothing if it selects none
     WrongOffset Int (Maybe Int)
   | -- | the control may leave the path by any distance
     NoBound
+  | -- | the control may leave the path by more than a program without contours allows: by so many
+    -- mm, and what is allowed
+    BoundTooLarge Mm Mm
   | -- | no line sets the path mode
     PathModeUnknown
   | -- | x or y moves while the tool is not above everything
@@ -63,6 +71,10 @@ data ControlFault
     BoxMove
   | -- | z goes down before x and y have a position in work coordinates
     UnsafeDescent
+  | -- | z moves to a height that is not known
+    UnknownHeight
+  | -- | the tool is changed below the height at which it is above everything
+    LowChange
   | -- | on a lathe, X and Z move at the same time or in a wrong order to or from their retract
     -- positions
     LatheOrder
@@ -100,11 +112,16 @@ changesReading f = case f of
   XInDiameters -> True
   XInRadii -> True
   NotPerMinute -> True
+  NoFeed -> True
+  OtherCoolant _ -> False
   WrongOffset _ _ -> False
   NoBound -> False
+  BoundTooLarge _ _ -> False
   PathModeUnknown -> False
   UnsafeMove -> False
   UnsafeDescent -> False
+  UnknownHeight -> False
+  LowChange -> False
   BoxMove -> False
   LatheOrder -> False
   ThroughProfile -> False
@@ -145,11 +162,16 @@ codeOf f = case f of
   XInDiameters -> "E0729"
   XInRadii -> "E0729"
   NotPerMinute -> "E0729"
+  NoFeed -> "E0706"
+  OtherCoolant _ -> "E0708"
   WrongOffset _ _ -> "E0730"
   NoBound -> "E0731"
+  BoundTooLarge _ _ -> "E0736"
   PathModeUnknown -> "E0731"
   UnsafeMove -> "E0732"
   UnsafeDescent -> "E0732"
+  UnknownHeight -> "E0732"
+  LowChange -> "E0735"
   BoxMove -> "E0734"
   LatheOrder -> "E0737"
   ThroughProfile -> "E0738"
@@ -169,34 +191,22 @@ wordsOf form isUnset f = case f of
       "After M6 the control keeps the length of the tool before."
   LengthOfAnother h tool -> lengthOfAnother h tool
   WrongPlane -> wrongPlane form isUnset
-  UnitsUnknown ->
-    Wording
-      { title = "no line sets the units of the numbers",
-        here = descends,
-        there = "",
-        reason = kept "units",
-        remedy = "Write G21 for mm or G20 for inches before the first motion."
-      }
+  UnitsUnknown -> unitsUnknown
   ModeUnknown mode -> modeUnknown form mode
-  XInDiameters ->
-    wrongMode
-      descends
-      "X gives diameters here"
-      "The positions of the program are not diameters."
-      "G8"
-  XInRadii ->
-    wrongMode
-      descends
-      "X gives radii here"
-      "The file of this lathe gives diameters."
-      "G7"
+  XInDiameters -> xInDiameters
+  XInRadii -> xInRadii
   NotPerMinute ->
     wrongMode cuts "the feed is not per minute" "The feeds of the program are per minute." "G94"
+  NoFeed -> noFeed isUnset
+  OtherCoolant asked -> otherCoolant asked
   WrongOffset wanted found -> wrongOffset wanted found
   NoBound -> noBound
+  BoundTooLarge found most -> boundTooLarge found most
   PathModeUnknown -> pathModeUnknown
   UnsafeMove -> unsafeMove form
   UnsafeDescent -> unsafeDescent form
+  UnknownHeight -> unknownHeight form
+  LowChange -> lowChange form
   BoxMove -> boxMove
   LatheOrder -> latheOrder
   ThroughProfile -> throughProfile
@@ -209,6 +219,16 @@ descends = "the tool comes down or cuts here"
 -- | Sentence about a value that no line sets.
 kept :: Text -> Text
 kept what = "The control keeps the " <> what <> " of the program that it ran before."
+
+unitsUnknown :: Wording
+unitsUnknown =
+  Wording
+    { title = "no line sets the units of the numbers",
+      here = descends,
+      there = "",
+      reason = kept "units",
+      remedy = "Write G21 for mm or G20 for inches before the first motion."
+    }
 
 spindleOff :: Bool -> Wording
 spindleOff isUnset =
@@ -323,6 +343,46 @@ wrongMode here title reason word =
       remedy = "Write " <> word <> " before this motion."
     }
 
+xInDiameters, xInRadii :: Wording
+xInDiameters =
+  wrongMode
+    descends
+    "X gives diameters here"
+    "The positions of the program are not diameters."
+    "G8"
+xInRadii =
+  wrongMode
+    descends
+    "X gives radii here"
+    "The file of this lathe gives diameters."
+    "G7"
+
+noFeed :: Bool -> Wording
+noFeed isUnset =
+  Wording
+    { title = "this cut has no feed",
+      here = cuts,
+      there = "the feed is 0 from here on",
+      reason =
+        if isUnset
+          then kept "feed"
+          else "G93, G94 and G95 set the feed to 0, and it has to be given again after them.",
+      remedy = "Write the feed in the line of the cut or before it, as in G1 X10 F300."
+    }
+
+-- | Words for a coolant that the program does not switch on. @asked@ is the one that it switches on.
+otherCoolant :: Coolant -> Wording
+otherCoolant asked =
+  Wording
+    { title = "the coolant is not that of the program",
+      here = "",
+      there = "this coolant from here on",
+      reason = "The program switches on " <> name <> " alone on this machine.",
+      remedy = "Write " <> word <> " in place of the other word, or M9 before it."
+    }
+  where
+    (name, word) = if asked == Mist then ("mist (M7)", "M7") else ("flood (M8)", "M8")
+
 wrongOffset :: Int -> Maybe Int -> Wording
 wrongOffset wanted found =
   Wording
@@ -349,17 +409,30 @@ noBound :: Wording
 noBound =
   Wording
     { title = "the control may round corners here by any distance",
-      here = cuts,
+      here = "",
       there = "this path mode",
       reason = "G64 without P, or with P0, has no bound.",
       remedy = pathRemedy
+    }
+
+boundTooLarge :: Mm -> Mm -> Wording
+boundTooLarge (Mm found) (Mm most) =
+  Wording
+    { title = "the control may leave the path by " <> Decimal.short 4 found <> " mm",
+      here = "",
+      there = "this path mode",
+      reason =
+        "The program has no contour whose tolerance would allow it, so only one pulse is allowed: "
+          <> Decimal.short 4 most
+          <> " mm.",
+      remedy = "Write G61 for the exact path."
     }
 
 pathModeUnknown :: Wording
 pathModeUnknown =
   Wording
     { title = "no line says how far the control may round corners",
-      here = cuts,
+      here = "",
       there = "",
       reason = kept "path mode",
       remedy = pathRemedy
@@ -380,6 +453,24 @@ unsafeDescent =
     "the tool comes down at an unknown place"
     "No line gives its position in x and y, so it may hit a clamp or the part."
 
+unknownHeight :: ProgramForm -> Wording
+unknownHeight =
+  unsafe
+    "z moves to a height that is not known"
+    "The part or a clamp may be on its way."
+
+lowChange :: ProgramForm -> Wording
+lowChange form =
+  Wording
+    { title = "the tool is changed, but not at the retract height",
+      here = "",
+      there = "",
+      reason = "The next tool may be longer, and then it is in the part or in a clamp at once.",
+      remedy = case lathe form of
+        Nothing -> "Move z alone, " <> toRetractHeight form <> ", before the change."
+        Just _ -> "Move X or Z to its retract position by G53 G0 before the change."
+    }
+
 -- | Words for a motion that may hit something, with its title and the reason.
 unsafe :: Text -> Text -> ProgramForm -> Wording
 unsafe title reason form =
@@ -388,13 +479,15 @@ unsafe title reason form =
       here = "",
       there = "",
       reason,
-      remedy = case retract form of
-        MachineHeight (Mm h) ->
-          "Move z alone first, by G53 G0 Z" <> Decimal.short 3 h <> ", then x and y, then z."
-        ReferencePoint -> "Move z alone first, by G91 G28 Z0, then x and y, then z."
-        SafeHeight _ ->
-          "Move z alone first, up to the safe height of the program, then x and y, then z."
+      remedy = "Move z alone first, " <> toRetractHeight form <> ", then x and y, then z."
     }
+
+-- | The way to the retract height.
+toRetractHeight :: ProgramForm -> Text
+toRetractHeight form = case retract form of
+  MachineHeight (Mm h) -> "by G53 G0 Z" <> Decimal.short 3 h
+  ReferencePoint -> "by G91 G28 Z0"
+  SafeHeight _ -> "up to the safe height of the program"
 
 boxMove :: Wording
 boxMove =

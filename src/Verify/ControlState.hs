@@ -38,7 +38,11 @@ data StateDemand = StateDemand
     -- | true if the operator switches the spindle
     isByHand :: Bool,
     -- | Nothing for a milling machine
-    latheDemand :: Maybe LatheDemand
+    latheDemand :: Maybe LatheDemand,
+    -- | coolant that runs if the program has switched it on
+    runningCoolant :: Coolant,
+    -- | largest deviation at corners, if the program has no contour whose tolerance bounds it
+    mostBlending :: Maybe Mm
   }
   deriving stock (Eq, Show)
 
@@ -64,7 +68,12 @@ judged form demand step = case action step of
     toRetract travel
       <> (if isCut travel || isDescent travel then settled form demand step else [])
       <> (if isCut travel then cutState demand step travel else [])
-  _ -> []
+      <> workingState demand step travel
+  Changes at _ -> [ControlFinding (line step) Nothing LowChange | not (isClear demand at)]
+  Dwells _ -> []
+  Stops -> []
+  StopsOnDemand -> []
+  Ends -> []
   where
     isCut travel = mode travel /= RapidMode
     toRetract travel = case latheDemand demand of
@@ -130,7 +139,6 @@ cutState demand step travel =
          | isArc,
            isNothing (valueOf (arcCentres m))
        ]
-    <> pathFindings
   where
     m = state step
     finding part = ControlFinding (line step) (lineOf part)
@@ -145,13 +153,57 @@ cutState demand step travel =
       _ -> [finding (spindle m) SpindleOff]
     feedFindings = case valueOf (feedMode m) of
       Nothing -> [finding (feedMode m) (ModeUnknown FeedUnit)]
-      Just PerMinute -> []
+      Just PerMinute -> [finding (feed m) NoFeed | maybe True (<= 0) (valueOf (feed m))]
       Just PerTurn -> [finding (feedMode m) NotPerMinute]
       Just InverseTime -> [finding (feedMode m) NotPerMinute]
+
+-- | Faults of the path mode and of the coolant at a motion in work coordinates, rapid moves
+-- included.
+workingState :: StateDemand -> Step -> Travel -> [ControlFinding]
+workingState demand step travel
+  | isWorking travel = pathFindings <> coolantFindings
+  | otherwise = []
+  where
+    m = state step
+    finding part = ControlFinding (line step) (lineOf part)
     pathFindings = case valueOf (pathMode m) of
       Nothing -> [finding (pathMode m) PathModeUnknown]
+      Just ExactPath -> []
       Just (Blended Nothing) -> [finding (pathMode m) NoBound]
-      _ -> []
+      Just (Blended (Just p))
+        | Just most <- mostBlending demand,
+          p > most ->
+          [finding (pathMode m) (BoundTooLarge p most)]
+        | otherwise -> []
+    running = runningCoolant demand
+    coolantFindings =
+      [ finding (coolant m) (OtherCoolant running)
+        | valueOf (coolant m) `notElem` [Nothing, Just CoolantOff, Just running]
+      ]
+
+-- | True for a motion that begins or ends at a known height in work coordinates.
+isWorking :: Travel -> Bool
+isWorking travel = any (isAt . placeZ) [from travel, to travel]
+
+isAt :: Coordinate -> Bool
+isAt c = case c of
+  At _ -> True
+  Retracted -> False
+  Anywhere -> False
+
+-- | True for a height at which the tool is above everything.
+isAbove :: StateDemand -> Coordinate -> Bool
+isAbove demand z = case z of
+  Retracted -> True
+  At h -> maybe False (h >=) (level demand)
+  Anywhere -> False
+
+-- | True for a place at which the tool may be changed: above everything, or on a lathe with x or z
+-- at its retract position.
+isClear :: StateDemand -> ToolPlace -> Bool
+isClear demand at
+  | isJust (latheDemand demand) = Retracted `elem` [placeX at, placeZ at]
+  | otherwise = isAbove demand (placeZ at)
 
 -- | Faults of a motion whose beginning or end is not in work coordinates: z has to move alone, and
 -- x and y may move only at the retract height.
@@ -160,8 +212,9 @@ unsafeMoves demand step travel
   | isKnown (from travel) && isKnown (to travel) =
     [bad UnsafeMove | isOutside (from travel) /= isOutside (to travel), not isAloneZ]
       <> [bad BoxMove | mode travel == RapidMode, Just free <- [boxLevel demand], isBox free]
+  | isAloneZ && placeZ (to travel) == Anywhere = [bad UnknownHeight]
   | isAloneZ = [bad UnsafeDescent | comesDown && not (hasPlane (to travel))]
-  | isAbove (placeZ (from travel)) && placeZ (from travel) == placeZ (to travel) = []
+  | isAbove demand (placeZ (from travel)) && placeZ (from travel) == placeZ (to travel) = []
   | otherwise = [bad UnsafeMove]
   where
     bad = ControlFinding (line step) Nothing
@@ -179,24 +232,13 @@ unsafeMoves demand step travel
       At z -> maybe True (z <) (level demand)
       Retracted -> False
       Anywhere -> True
-    isAbove z = case z of
-      Retracted -> True
-      At h -> maybe False (h >=) (level demand)
-      Anywhere -> False
     isKnown p = hasPlane p && isAt (placeZ p)
-    isOutside p = case placeZ p of
-      At h -> maybe False (h >=) (level demand)
-      Retracted -> True
-      Anywhere -> False
-    isAt c = case c of
-      At _ -> True
-      Retracted -> False
-      Anywhere -> False
+    isOutside = isAbove demand . placeZ
 
--- | Largest deviation in mm that the control may make at corners of cuts.
+-- | Largest deviation in mm that the control may make at corners in work coordinates.
 largestBlending :: [Step] -> Mm
 largestBlending = foldl' max (Mm 0) . mapMaybe bound
   where
     bound step = case (action step, valueOf (pathMode (state step))) of
-      (Travels travel, Just (Blended (Just p))) | mode travel /= RapidMode -> Just p
+      (Travels travel, Just (Blended (Just p))) | isWorking travel -> Just p
       _ -> Nothing

@@ -24,12 +24,12 @@ import Frame.Frame qualified as Frame
 import Gcode.Block (Fault)
 import Gcode.Heading (FileHeading (..))
 import Gcode.Heading qualified as Heading
-import Gcode.ModalState (Plane (..))
+import Gcode.ModalState (Coolant (..), Plane (..))
 import Gcode.Run qualified as Run
 import Gcode.ToFrames (GcodeReading (..), ReadFrame (..))
 import Gcode.ToFrames qualified as ToFrames
 import Gcode.ToolTip qualified as ToolTip
-import Machine.Machine (Machine, ProgramForm (..))
+import Machine.Machine (CommandValue (..), CommandWords (..), Machine, ProgramForm (..))
 import Machine.Machine qualified as Machine
 import Machine.ProgramForm (Lathe, RapidPath (..))
 import Machine.ProgramForm qualified as ProgramForm
@@ -98,9 +98,10 @@ lineOfFrame reading n = case drop (n - 1) (readFrames reading) of
   f : _ | n > 0 -> Just (readFrom f)
   _ -> Nothing
 
--- | State of the control that a program asks for.
-demandOf :: Machine -> ProgramForm -> FileHeading -> FrameProgram -> StateDemand
-demandOf machine form heading program =
+-- | State of the control that a program asks for. @hasContours@ is true if contours bound the
+-- deviation at corners.
+demandOf :: Machine -> ProgramForm -> FileHeading -> FrameProgram -> Bool -> StateDemand
+demandOf machine form heading program hasContours =
   StateDemand
     { offset = workOffset heading,
       cuttingPlane = maybe PlaneXY (const PlaneZX) (lathe form),
@@ -112,10 +113,14 @@ demandOf machine form heading program =
               BoxPath | isInfinite z -> Just maxBound
               BoxPath -> Just (round (z * 1.0e9)),
       isByHand = isSpindleByHand heading,
-      latheDemand = latheDemandOf machine heading <$> lathe form
+      latheDemand = latheDemandOf machine heading <$> lathe form,
+      runningCoolant = if switchesMist then Mist else Flood,
+      mostBlending = if hasContours then Nothing else Just (Machine.planeResolution machine)
     }
   where
     inPicometres (Pulses n) = n * round (resolution * 1.0e9)
+    switchesMist =
+      Fixed 7 `elem` map Machine.value (coolantOn (Machine.commandWords machine))
     Mm resolution = Machine.resolutionOf machine Machine.Z
 
 -- | What the program asks of the motions of a lathe.
@@ -172,7 +177,7 @@ judged machine form heading program reading proof =
       mayLeave = p
     }
   where
-    demand = demandOf machine form heading program
+    demand = demandOf machine form heading program (not (null (contourProofs proof)))
     controlFindings = ControlState.findings form demand (steps reading)
     p =
       plus

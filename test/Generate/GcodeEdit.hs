@@ -67,11 +67,11 @@ lineLost, lineDoubled, linesExchanged, wordLost, codeReplaced :: [String] -> Gen
 lineLost file = do
   n <- anyLine file
   let (before, rest) = splitAt n file
-  pure (GcodeEdit "line left out" ("line " <> at n <> concat (take 1 rest)) (before <> drop 1 rest))
+  pure (GcodeEdit "line left out" ("without line " <> at n <> concat (take 1 rest)) (before <> drop 1 rest))
 lineDoubled file = do
   n <- anyLine file
   let (before, rest) = splitAt n file
-  pure (GcodeEdit "line doubled" ("line " <> at n <> concat (take 1 rest)) (before <> take 1 rest <> rest))
+  pure (GcodeEdit "line doubled" ("twice line " <> at n <> concat (take 1 rest)) (before <> take 1 rest <> rest))
 linesExchanged file = do
   n <- choose (0, length file - 2)
   next <- arbitrary
@@ -148,7 +148,7 @@ lineInserted file = do
   pure
     ( GcodeEdit
         "foreign line inserted"
-        ("line " <> show (n + 1) <> ": " <> new)
+        ("before line " <> show (n + 1) <> ": " <> new)
         (take n file <> [new] <> drop n file)
     )
 

@@ -22,7 +22,7 @@ import Files (filesBelow, readText)
 import Frame.Frame qualified as Frame
 import Gcode.Heading qualified as Heading
 import Gcode.Writer (ToolFile (fileText))
-import GcodeJudge (Reason, Verdict (..), reasonText, verdict)
+import GcodeJudge (Reason (..), Verdict (..), clearsTheSame, reasonText, verdict)
 import Generate.GcodeEdit (GcodeEdit (..), editKinds, gcodeEdit)
 import Machine.Machine qualified as Machine
 import Machines qualified
@@ -108,7 +108,9 @@ outcomeOf :: Subject -> GcodeEdit -> Outcome
 outcomeOf subject edit = case (isAccepted subject (edited edit), verdict allowed (own subject) (edited edit)) of
   (False, Changed _) -> Refused
   (False, Same _) -> RefusedSame
-  (True, Changed why) -> Wrong ("accepted, but " <> why)
+  (True, Changed why)
+    | clearsTheSame allowed (own subject) (edited edit) -> Accepted [OtherLoops]
+    | otherwise -> Wrong ("accepted, but " <> why)
   (True, Same found) -> maybe (Wrong "accepted without a reason") Accepted (sequence found)
 
 -- | Verdict of the proof.
