@@ -111,7 +111,7 @@ changes allowed old new =
   cutChanges
     <> map
       (InState,)
-      ( ["rapid moves in the material" | not (sameLow allowed (lowRapids old) (lowRapids new))]
+      ( ["rapid moves in the material" | isSameCount, not (sameLow allowed (lowRapids old) (lowRapids new))]
           <> concatMap (unsafeMove allowed demanded) new
           <> ["another stop" | isSameCount, stopsOf old /= stopsOf new]
           <> ["another wait" | isSameCount, not (sameWaits (waitsOf old) (waitsOf new))]

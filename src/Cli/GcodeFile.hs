@@ -63,7 +63,17 @@ readAlone machine form file = case Run.run form Nothing 1 (fileText file) of
       ( Region.fromText (fileName file) (fileText file),
         FaultReport.toReport (regionFrom (fileText file) 0) fault
       )
-  Right steps -> Right (ToFrames.reading machine Nothing (ToFrames.FirstTool Nothing Map.empty) 0 steps)
+  Right steps -> Right (ToFrames.reading setting 0 steps)
+  where
+    setting =
+      ToFrames.FileSetting
+        { ToFrames.machine,
+          ToFrames.level = Nothing,
+          ToFrames.firstNumber = Nothing,
+          ToFrames.tips = Map.empty,
+          ToFrames.stops = [],
+          ToFrames.commandPlaces = []
+        }
 
 -- | Lines of a file in a range, each with its number and the frames that are read from it, and the
 -- unit of the range with the count of these units in the file.

@@ -474,6 +474,10 @@ toReference form s now
 arcCentre :: Sorted -> Sense -> Running -> ToolPlace -> Either Fault (Int, Int)
 arcCentre s sense now target = do
   (begin, finish) <- maybe (faultAt b 1 (UnknownPosition 'X')) Right ends
+  -- LinuxCNC refuses the offset along the axis of the plane, and offsets beside a radius.
+  case [w | w <- others s, letter w `elem` useless] of
+    w : _ -> faultOf b w (UnusedWord (Text.singleton (letter w)))
+    [] -> Right ()
   case given 'R' s of
     Just r -> maybe (faultAt b 1 BadArc) Right (centreByRadius sense r' begin finish)
       where
@@ -487,6 +491,9 @@ arcCentre s sense now target = do
   where
     b = block s
     m = modal now
+    useless
+      | isJust (given 'R' s) = "IJK"
+      | otherwise = filter (`notElem` letters') "IJK"
     inPlane p = case valueOf (plane m) of
       Just PlaneZX -> (placeZ p, placeX p)
       Just PlaneYZ -> (placeY p, placeZ p)

@@ -3,13 +3,14 @@
 -- A frame needs its beginning and its end in work coordinates. While the tool is at the retract
 -- height, or where it is not known, there are no frames; this is an /excursion/: the beginning of
 -- the file, a change of the tool, the end. After an excursion the frames go on where the tool comes
--- down. If it comes down elsewhere than it left, rapid frames join both positions.
+-- down. If it comes down elsewhere than it left, a straight rapid frame joins both positions: the
+-- way over the retract height serves for any rapid move above the part.
 --
 -- Commands are given in the frames as "Frame.CommandState" orders them.
 module Gcode.ToFrames
   ( GcodeReading (..),
+    FileSetting (..),
     ReadFrame (..),
-    FirstTool (..),
     reading,
   )
 where
@@ -41,7 +42,8 @@ import Part.Part qualified as Part
 data GcodeReading = GcodeReading
   { readFrames :: [ReadFrame],
     steps :: [Step],
-    -- | largest distance in mm, along one axis, of a position in the file from the nearest pulse
+    -- | largest distance in mm by which a frame may deviate from the motion in the file, because
+    -- positions are rounded to pulses
     offGrid :: Mm
   }
   deriving stock (Eq, Show)
@@ -50,32 +52,50 @@ data GcodeReading = GcodeReading
 data ReadFrame = ReadFrame {readFrame :: Frame, readFrom :: Int}
   deriving stock (Eq, Show)
 
--- | Number of the tool that the program has loaded before the file, and for each tool the offset in
--- pulses from its centre to the point that the control leads; 0 for tools that are not in the list.
-data FirstTool = FirstTool {firstNumber :: Maybe Int, tipsOfTools :: Map Int Pulses3}
-
 -- | State of the conversion.
 data Converting = Converting
   { -- | last known position in pulses
     here :: Pulses3,
-    -- | true during an excursion
-    isAway :: Bool,
+    whereabouts :: Whereabouts,
     commanded :: CommandState,
     pending :: Maybe Pending,
     -- | line of the last start of the spindle for which the file has waited, or has cut without
     waitedFor :: Maybe Int,
     -- | the latest frame first
     made :: [ReadFrame],
-    -- | offset in pulses of the point that the control leads from the centre of each tool
-    tips :: Map Int Pulses3,
     lost :: Double
   }
 
--- | Frames of the actions of a file. @level@ is the height in pulses from which on the tool is
--- above everything; Nothing if no height in work coordinates is. @start@ is the position of the
--- program before its first frame.
-reading :: Machine -> Maybe Pulses -> FirstTool -> Pulses3 -> [Step] -> GcodeReading
-reading machine level FirstTool {firstNumber, tipsOfTools} start list =
+-- | State of an excursion.
+data Whereabouts
+  = -- | no excursion
+    Working
+  | -- | at the retract height, or at an unknown position
+    Away
+  | -- | has come down to a position, straight from above, by this step; the frames that lead there
+    -- are made when the tool comes down no further
+    Landing Pulses3 Step
+
+-- | Facts about a program that are the same for all actions of its files.
+data FileSetting = FileSetting
+  { machine :: Machine,
+    -- | height in pulses from which on the tool is above everything; Nothing if no height in work
+    -- coordinates is
+    level :: Maybe Pulses,
+    -- | number of the tool that the program has loaded before its first frame
+    firstNumber :: Maybe Int,
+    -- | offset in pulses from the centre of each tool to the point that the control leads; 0 for
+    -- tools that are not in the list
+    tips :: Map Int Pulses3,
+    -- | positions at the ends of the program's frames
+    stops :: [Pulses3],
+    -- | positions at which the program gives commands
+    commandPlaces :: [Pulses3]
+  }
+
+-- | Frames of the actions of a file. @start@ is the position of the program before its first frame.
+reading :: FileSetting -> Pulses3 -> [Step] -> GcodeReading
+reading setting start list =
   GcodeReading
     { readFrames = reverse (made end),
       steps = list,
@@ -85,21 +105,20 @@ reading machine level FirstTool {firstNumber, tipsOfTools} start list =
     begin =
       Converting
         { here = start,
-          isAway = True,
-          commanded = CommandState.initial {tool = firstNumber},
+          whereabouts = Away,
+          commanded = CommandState.initial {tool = firstNumber setting},
           pending = Nothing,
           waitedFor = Nothing,
           made = [],
-          tips = tipsOfTools,
           lost = 0
         }
-    end = foldl' (converted machine level) begin list
+    end = landed setting (foldl' (converted setting) begin list)
 
 -- | Converts one action.
-converted :: Machine -> Maybe Pulses -> Converting -> Step -> Converting
-converted machine level c step = case action step of
-  Travels travel -> travelled machine level (withCommands machine step) (cutting travel) step travel
-  Changes _ _ -> c
+converted :: FileSetting -> Converting -> Step -> Converting
+converted setting@FileSetting {machine} c step = case action step of
+  Travels travel -> travelled setting (cutting travel) step travel
+  Changes _ _ -> onSite
   Dwells t
     | isStart, waitedFor c /= started -> c {waitedFor = started}
     | otherwise -> event (Part.Dwell t)
@@ -108,9 +127,10 @@ converted machine level c step = case action step of
   Ends ->
     foldl'
       (\c' ws -> addCommands (line step) ws (flushed (line step) c'))
-      c
+      onSite
       (Command.finalFrames machine)
   where
+    onSite = landed setting c
     -- The first dwell after a start of the spindle waits for the spindle, if nothing is cut before.
     cutting travel
       | mode travel /= RapidMode, isStart = c {waitedFor = started}
@@ -124,34 +144,77 @@ converted machine level c step = case action step of
         machine
         step
         (Command.translated machine (Located (Region 0 0) command))
-        (withCommands machine step c)
+        (withCommands setting step onSite)
 
--- | Converts a motion. @switched@ adds the commands that the state of the motion shows.
-travelled ::
-  Machine ->
-  Maybe Pulses ->
-  (Converting -> Converting) ->
-  Converting ->
-  Step ->
-  Travel ->
-  Converting
-travelled machine level switched c step travel = case centreAt (to travel) of
+-- | Converts a motion.
+travelled :: FileSetting -> Converting -> Step -> Travel -> Converting
+travelled setting@FileSetting {machine, level} c step travel = case centreAt (to travel) of
+  Nothing -> onSite {whereabouts = Away}
   Just (target, off)
-    | maybe False (height target >=) level -> c {isAway = True}
-    | isAway c || isNothing (centreAt (from travel)) ->
-      let c' = switched c {isAway = False, lost = max (lost c) off}
-       in foldl' (addMotion (line step)) c' (joining machine (here c') target)
-    | otherwise ->
-      addMotion
-        (line step)
-        (switched c {lost = max (lost c) off})
-        (frameOf machine step (centred travel) (here c) target)
-  Nothing -> c {isAway = True}
+    | maybe False (heightOf target >=) level -> onSite {whereabouts = Away}
+    | isLower target -> coming setting step target (losing off c)
+    | isAway onSite || isNothing (centreAt (from travel)) ->
+      coming setting step target (losing off onSite)
+    | otherwise -> moved (losing off onSite) target
   where
-    height (Pulses3 _ _ z) = z
-    tip = fromMaybe 0 (valueOf (toolInSpindle (state step)) >>= (`Map.lookup` tips c))
+    onSite = landed setting c
+    isLower target = case whereabouts c of
+      Landing p _ -> mode travel == RapidMode && isUnder p target
+      Working -> False
+      Away -> False
+    moved c' target =
+      let (f, off) = frameOf machine step (centred travel) (here c') target
+       in addMotion (line step) (withCommands setting step (losing off c')) f
+    tip = fromMaybe 0 (valueOf (toolInSpindle (state step)) >>= (`Map.lookup` tips setting))
     centreAt place = first (subtract tip) <$> inPulses machine place
     centred t = t {about = fmap (shiftedBy machine tip) (about t)}
+
+-- | True at the retract height, or at an unknown position.
+isAway :: Converting -> Bool
+isAway c = case whereabouts c of
+  Away -> True
+  Working -> False
+  Landing _ _ -> False
+
+-- | Notes a distance of a position from its pulses.
+losing :: Double -> Converting -> Converting
+losing off c = c {lost = max (lost c) off}
+
+-- | Lets the tool come down to a position. The frames are made at once if it comes down where it
+-- left, or to a position of the program. Other files may stop in between on the way down.
+coming :: FileSetting -> Step -> Pulses3 -> Converting -> Converting
+coming setting step target c
+  | x == x' && y == y' || any (isNear target) (stops setting) = landed setting landing
+  | otherwise = landing
+  where
+    landing = c {whereabouts = Landing target step}
+    (Pulses3 x y _, Pulses3 x' y' _) = (here c, target)
+
+-- | True for positions at most two pulses apart along each axis.
+isNear :: Pulses3 -> Pulses3 -> Bool
+isNear p q = let Pulses3 dx dy dz = p - q in all ((<= 2) . abs) [dx, dy, dz]
+
+-- | Makes the frames that lead to the position to which the tool has come down. Commands are given
+-- where the program gives some; else behind the way up and before all other frames.
+landed :: FileSetting -> Converting -> Converting
+landed setting@FileSetting {machine} c = case whereabouts c of
+  Landing target step ->
+    let (up, others) = joining machine (here c) target
+        add = flip (foldl' (addMotion (line step)))
+        switched = withCommands setting step
+        working = c {whereabouts = Working}
+     in if any (isNear (here c)) (commandPlaces setting)
+          then add (up <> others) (switched working)
+          else add others (switched (add up working))
+  Working -> c
+  Away -> c
+
+heightOf :: Pulses3 -> Pulses
+heightOf (Pulses3 _ _ z) = z
+
+-- | True if the second position is straight below the first one, or the same.
+isUnder :: Pulses3 -> Pulses3 -> Bool
+isUnder (Pulses3 x y z) (Pulses3 x' y' z') = x == x' && y == y' && z' <= z
 
 -- | Centre of an arc in picometres, without an offset in pulses.
 shiftedBy :: Machine -> Pulses3 -> (Int, Int) -> (Int, Int)
@@ -160,8 +223,8 @@ shiftedBy machine (Pulses3 dx dy _) (i, j) = (i - along X dx, j - along Y dy)
     along axis (Pulses n) = n * pulseOf machine axis
 
 -- | Adds the commands that lead to the state of a step.
-withCommands :: Machine -> Step -> Converting -> Converting
-withCommands machine step c = foldl' add c {commanded = now} groups
+withCommands :: FileSetting -> Step -> Converting -> Converting
+withCommands FileSetting {machine} step c = foldl' add c {commanded = now} groups
   where
     now = stateOf (state step)
     groups = CommandState.between machine (commanded c) now
@@ -212,40 +275,48 @@ addMotion n c f
         made = ReadFrame f {commands = maybe [] given (pending c)} n : made c
       }
 
--- | Rapid frames from one position to another: at the higher of the two heights; on a lathe at the
--- larger of the two radii.
-joining :: Machine -> Pulses3 -> Pulses3 -> [Frame]
+-- | Rapid frames from one position to another: those that go straight up, and all others. One
+-- straight frame leads from one position above the part to another; otherwise the frames show that
+-- the tool goes up above the part and comes down again. On a lathe they go along x at the larger of
+-- the two radii.
+joining :: Machine -> Pulses3 -> Pulses3 -> ([Frame], [Frame])
 joining machine a@(Pulses3 ax ay az) b@(Pulses3 bx by bz)
   | isJust (Machine.programForm machine >>= Machine.lathe) =
-    map rapidFrame (differences [a, Pulses3 ax outer az, Pulses3 bx outer bz, b])
-  | otherwise = map rapidFrame (differences [a, Pulses3 ax ay top, Pulses3 bx by top, b])
+    ([], leading [a, Pulses3 ax outer az, Pulses3 bx outer bz, b])
+  | (ax, ay) /= (bx, by) && min az bz >= 0 = ([], leading [a, b])
+  | otherwise = (leading [a, Pulses3 ax ay top], leading [Pulses3 ax ay top, Pulses3 bx by top, b])
   where
     outer = max ay by
-    top = max az bz
-    differences ps = [q - p | (p, q) <- zip ps (drop 1 ps), p /= q]
+    top
+      | (ax, ay) == (bx, by) = max az bz
+      | otherwise = maximum [az, bz, 0]
+    leading ps = [rapidFrame (q - p) | (p, q) <- zip ps (drop 1 ps), p /= q]
     rapidFrame d =
       (Frame.commandFrame []) {motion = Rapid, increment = d}
 
--- | Frame of a motion between two positions in pulses.
-frameOf :: Machine -> Step -> Travel -> Pulses3 -> Pulses3 -> Frame
+-- | Frame of a motion between two positions in pulses, and the distance by which it may deviate
+-- from the motion because its centre is rounded to pulses. The far side of an arc deviates by twice
+-- the distance of the centre.
+frameOf :: Machine -> Step -> Travel -> Pulses3 -> Pulses3 -> (Frame, Double)
 frameOf machine step travel begin target = case mode travel of
-  RapidMode -> plain {motion = Rapid}
-  LinearMode -> plain {motion = Linear, feedCode}
+  RapidMode -> (plain {motion = Rapid}, 0)
+  LinearMode -> (plain {motion = Linear, feedCode}, 0)
   ArcMode sense
     | Just c <- about travel,
-      maybe True (== planeOf machine) (valueOf (plane (state step))) ->
-      plain {motion = Circular sense, feedCode, centre = centreFrom c}
+      maybe True (== planeOf machine) (valueOf (plane (state step))),
+      (centre, off) <- centreFrom c ->
+      (plain {motion = Circular sense, feedCode, centre}, 2 * off)
     -- An arc in another plane is a finding of its own.
-    | otherwise -> plain {motion = Linear, feedCode}
+    | otherwise -> (plain {motion = Linear, feedCode}, 0)
   where
     plain = (Frame.commandFrame []) {increment = target - begin}
     feedCode = FeedCode (maybe 0 inSteps (valueOf (Gcode.ModalState.feed (state step))))
     inSteps v = round (v / Machine.directStep (Machine.feeds machine))
     centreFrom (i, j) =
       let Pulses3 x y _ = begin
-          (cx, _) = nearest machine X i
-          (cy, _) = nearest machine Y j
-       in Pulses2 (cx - x) (cy - y)
+          (cx, dx) = nearest machine X i
+          (cy, dy) = nearest machine Y j
+       in (Pulses2 (cx - x) (cy - y), sqrt (dx * dx + dy * dy))
 
 -- | Plane of the part's axes x and y, by the letters of the control.
 planeOf :: Machine -> Plane
@@ -253,14 +324,14 @@ planeOf machine = case letterOf machine X of
   'Z' -> PlaneZX
   _ -> PlaneXY
 
--- | Position in pulses along the axes of the part, and the largest distance in mm of a coordinate
--- from its pulse. Nothing if a coordinate is not known.
+-- | Position in pulses along the axes of the part, and its distance in mm from the position itself.
+-- Nothing if a coordinate is not known.
 inPulses :: Machine -> ToolPlace -> Maybe (Pulses3, Double)
 inPulses machine place = do
   (x, dx) <- along X
   (y, dy) <- along Y
   (z, dz) <- along Z
-  pure (Pulses3 x y z, maximum [dx, dy, dz])
+  pure (Pulses3 x y z, sqrt (dx * dx + dy * dy + dz * dz))
   where
     along axis
       | isNothing (Machine.wordFor machine (Along axis)) = Just (0, 0)

@@ -50,12 +50,7 @@ readTexts ::
   [Text] ->
   Either Fault GcodeReading
 readTexts machine form heading program texts =
-  ToFrames.reading
-    machine
-    (levelOf machine form heading program)
-    (ToFrames.FirstTool (firstTool heading) (tipsOf machine form heading))
-    (Frame.start program)
-    . concat
+  ToFrames.reading (settingOf machine form heading program) (Frame.start program) . concat
     <$> traverse ofFile (zip3 [1 ..] firstLines texts)
   where
     firstLines = scanl (+) 1 (map (length . Text.lines) texts)
@@ -67,6 +62,22 @@ readTexts machine form heading program texts =
       | otherwise = case drop (k - 1) (toolOrder heading) of
         n : _ -> Just n
         [] -> Nothing
+
+-- | Facts about a program for the reading of its files.
+settingOf :: Machine -> ProgramForm -> FileHeading -> FrameProgram -> ToFrames.FileSetting
+settingOf machine form heading program =
+  ToFrames.FileSetting
+    { ToFrames.machine,
+      ToFrames.level = levelOf machine form heading program,
+      ToFrames.firstNumber = firstTool heading,
+      ToFrames.tips = tipsOf machine form heading,
+      ToFrames.stops = places,
+      ToFrames.commandPlaces =
+        [place | (place, frame) <- zip places frames, not (null (Frame.commands frame))]
+    }
+  where
+    frames = map Frame.frame (Frame.plannedFrames program)
+    places = scanl (+) (Frame.start program) (map Frame.increment frames)
 
 -- | Offsets in pulses from the centre of each tool to the point that the control leads.
 tipsOf :: Machine -> ProgramForm -> FileHeading -> Map Int Pulses3

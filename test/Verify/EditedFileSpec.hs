@@ -19,7 +19,6 @@ import Data.Text (Text)
 import Data.Text qualified as Text
 import Data.Text.Encoding qualified as Encoding
 import Files (filesBelow, readText)
-import Frame.Frame qualified as Frame
 import Gcode.Heading qualified as Heading
 import Gcode.Writer (ToolFile (fileText))
 import GcodeJudge (Reason (..), Verdict (..), clearsTheSame, reasonText, verdict)

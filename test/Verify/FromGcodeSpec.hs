@@ -1,0 +1,124 @@
+-- | Files of G-code with one line changed by hand: what the proof of the file reports, and at which
+-- line. Each test is a case that a simple reader of the file would pass over.
+module Verify.FromGcodeSpec (spec) where
+
+import Base.Quantity (Mm (..))
+import Base.Result qualified as Result
+import Compile (Analysis (..), Compiled (..), Punched (..))
+import Compile qualified
+import Data.Text (Text)
+import Data.Text qualified as Text
+import Files (readText)
+import Gcode.Block (Fault (..), FaultReason (..))
+import Gcode.Heading qualified as Heading
+import Gcode.ModalState (Coolant (..))
+import Gcode.Writer (ToolFile (fileText))
+import Machine.Machine qualified as Machine
+import Machines qualified
+import Project.LoadedProgram qualified as LoadedProgram
+import Test.Hspec
+import Verify.ControlFault (ControlFault (..), ControlFinding (..))
+import Verify.FromGcode qualified as FromGcode
+import Verify.Proof (Proof (..))
+import Verify.Proof qualified as Proof
+
+-- | Verdict about a file.
+data Outcome
+  = NotRead Fault
+  | -- | the faults of the state, each with its line, and the count of other findings
+    Judged [(Int, ControlFault)] Int
+  deriving stock (Eq, Show)
+
+spec :: Spec
+spec = do
+  describe "a line that is not understood" $ do
+    it "has a word of an arc that no arc uses" $
+      changed "cover" "G1 X21.000" "G1 X21.000 I2" `gives` notRead 22 12 (UnusedWord "I")
+    it "has the centre of an arc along the axis of its plane" $
+      changed "cover" "G3 X13.000 I-2.000 J0.000" "G3 X13.000 I-2.000 K0.000"
+        `gives` notRead 20 20 (UnusedWord "K")
+    it "has a position beside a dwell: the control would move there" $
+      changed "bar" "G4 P3" "G4 P3 X15" `gives` notRead 15 7 (UnusedWord "X")
+    it "has G53 without an axis" $
+      changed "bar" "G53 G0 Z0" "G53 G0" `gives` notRead 11 1 (WordMissing "Z0" "G53")
+    it "may be left out by the operator" $
+      changed "bar" "G0 X15.000" "/G0 X15.000" `gives` notRead 21 1 (UnprovenWord "/")
+  describe "a fault of the state" $ do
+    it "is a move to an unknown height, at the end of the file too" $
+      changedLast "bar" "G53 G0 Z0" "G53 G0 Z-50" `gives` Judged [(67, UnknownHeight)] 0
+    it "is a change of the tool near the part" $
+      changed "plate" "G53 G0 Z0\nM5\nM9\nT2" "M5\nM9\nT2" `givesFault` (30, LowChange)
+    it "is a feed that G94 has set to 0" $
+      changed "cover" "G1 X21.000" "G94\nG1 X21.000"
+        `givesFault` (23, NoFeed)
+    it "is a feed in the units of the line before" $
+      changed "cover" "G1 X21.000" "G20 F7.874\nG21\nG1 X21.000" `givesOther` True
+    it "is mist where the program asks for flood" $
+      changed "cover" "M8" "M7" `givesFault` (36, OtherCoolant Flood)
+    it "is a bound of the path mode that no contour allows" $
+      changed "bar" "G61" "G64 P0.01 Q0" `givesFault` (17, BoundTooLarge (Mm 0.01) (Mm 0.001))
+    it "is a path mode without a bound, at rapid moves too" $
+      changedLast "cover" "G0 Z2.000" "G64\nG0 Z2.000" `givesFault` (45, NoBound)
+    it "is a path mode with a negative Q" $
+      changed "cover" "G64 P0.020 Q0" "G64 P0.030 Q-0.010" `givesFault` (16, NoBound)
+  describe "a file is accepted" $ do
+    it "that waits for the spindle longer, or not at all" $ do
+      changed "bar" "G4 P3" "G4 P9" `gives` Judged [] 0
+      changed "plate" "G4 P3\n" "" `gives` Judged [] 0
+    it "that comes down over another point of a rapid move" $
+      changedLast "bar" "G0 X35.000 Y5.000\nG0 Z2.000\nG0 X10.000 Y15.000 Z15.000\nG0 Z2.000" "G0 X10.000 Y15.000\nG0 Z15.000\nG0 Z2.000"
+        `gives` Judged [] 0
+    it "that stops on its way down from the retract height" $
+      changedLast "bar" "G0 Z15.000\nG0 X5.000 Y5.000 Z2.000" "G0 X5.000 Y5.000\nG0 Z10\nG0 Z2"
+        `gives` Judged [] 0
+    it "that goes up from a hole to the retract height at once" $
+      changed "bar" "G1 Z-6.000\nG0 Z2.000\nG53 G0 Z0" "G1 Z-6.000\nG53 G0 Z0" `gives` Judged [] 0
+  where
+    notRead n column reason = NotRead (Fault n column reason)
+
+-- | Outcome of a program's own file with its first lines of a text replaced.
+changed :: FilePath -> Text -> Text -> IO Outcome
+changed name old new = outcome name (replacing (Text.breakOn old))
+  where
+    replacing split text = let (before', rest) = split text in before' <> new <> Text.drop (Text.length old) rest
+
+-- | Does the same with the last lines of a text.
+changedLast :: FilePath -> Text -> Text -> IO Outcome
+changedLast name old new = outcome name $ \text ->
+  let (before', rest) = Text.breakOnEnd old text in Text.dropEnd (Text.length old) before' <> new <> rest
+
+gives :: IO Outcome -> Outcome -> Expectation
+gives action wanted = action >>= (`shouldBe` wanted)
+
+-- | Expects a fault of the state among others.
+givesFault :: IO Outcome -> (Int, ControlFault) -> Expectation
+givesFault action wanted =
+  action >>= \case
+    Judged faults _ -> faults `shouldContain` [wanted]
+    NotRead fault' -> expectationFailure (show fault')
+
+-- | Expects other findings than those of the state, or none.
+givesOther :: IO Outcome -> Bool -> Expectation
+givesOther action wanted =
+  action >>= \case
+    Judged _ others -> (others > 0) `shouldBe` wanted
+    NotRead fault' -> expectationFailure (show fault')
+
+-- | Reads and judges the file of a program after a change.
+outcome :: FilePath -> (Text -> Text) -> IO Outcome
+outcome name change = do
+  text <- readText ("test/gcode/" <> name <> ".part")
+  let loaded = LoadedProgram.fromText (Text.pack name) text
+      job = Machines.jobFor (Machines.named "linuxcnc-mill") []
+  case (Result.output (Compile.compile job loaded), Result.output (Compile.analyse [] loaded)) of
+    (Just (c : _), Just Analysis {part})
+      | [f] <- files (punched c),
+        Just form <- Machine.programForm (machine c),
+        own <- fileText f,
+        change own /= own ->
+        pure $ case FromGcode.readTexts (machine c) form (Heading.fromToolpath (toolpath c)) (program (punched c)) [change own] of
+          Left fault' -> NotRead fault'
+          Right reading ->
+            let proof' = Compile.proveGcode form (Just part) c reading
+             in Judged [(n, f') | ControlFinding n _ f' <- controlFindings proof'] (length (Proof.findings proof'))
+    _ -> fail (name <> " has no such line")
