@@ -168,31 +168,37 @@ withNeighbours list = zip list (zipWith (\a b -> a <> b) before (map (take 2) (s
 -- | Differences of two cuts.
 changedCut :: Double -> (Event, [[Place]]) -> (Event, [[Place]]) -> [(ChangeKind, String)]
 changedCut allowed (old, oldPaths) (new, newPaths) = case (old, new) of
-  (Moves _ k from to middle c, Moves n k' from' to' middle' c') ->
-    [ (kind, "line " <> show n <> ": " <> what)
-      | (kind, True, what) <-
-          [ (InPath, (k, from, to, middle) /= (k', from', to', middle') && isElsewhere, "a cut elsewhere")
-          ]
-            <> map
-              (\(is, what) -> (InState, is, what))
-              (stateChanges k c c')
-    ]
+  (Moves _ k _ _ _ c, Moves n _ _ _ _ c') ->
+    [(InPath, at n "a cut elsewhere") | not (isNearly (allowed / 2) old new), isElsewhere]
+      <> [(InState, at n what) | (True, what) <- stateChanges k c c']
   _ -> [(InState, "no cuts")]
   where
+    at n what = "line " <> show n <> ": " <> what
     isElsewhere = any (isOff oldPaths) (path new) || any (isOff newPaths) (path old)
     isOff paths p = all (\way' -> awayFrom way' p > allowed + 0.001) paths
+
+-- | Test that two motions of a kind have nearly the same ends and the same centre.
+isNearly :: Double -> Event -> Event -> Bool
+isNearly most old new = case (old, new) of
+  (Moves _ k from to middle _, Moves _ k' from' to' middle' _) ->
+    k == k'
+      && and (zipWith near [from, to, centre middle] [from', to', centre middle'])
+  _ -> False
+  where
+    near a b = a == b || distance a b <= most
+    centre = maybe [] (\(x, y) -> [Just x, Just y])
 
 -- | Differences of the states of two cuts of a kind.
 stateChanges :: Int -> Control -> Control -> [(Bool, String)]
 stateChanges k c c' =
-          [ (differs 0.5 (feed c) (feed c'), "another feed"),
-            (differs 0.5 (rpm c) (rpm c') || turns c /= turns c', "the spindle"),
-            (plane c' /= Just 17, "the plane"),
-            (feedWay c' /= Just 94, "the kind of feed"),
-            (isNothing (hasAbsoluteCentres c') && k > 1, "centres of arcs"),
-            (loaded c /= loaded c', "another tool"),
-            (coolants c /= coolants c', "the coolant")
-          ]
+  [ (differs 0.5 (feed c) (feed c'), "another feed"),
+    (differs 0.5 (rpm c) (rpm c') || turns c /= turns c', "the spindle"),
+    (plane c' /= Just 17, "the plane"),
+    (feedWay c' /= Just 94, "the kind of feed"),
+    (isNothing (hasAbsoluteCentres c') && k > 1, "centres of arcs"),
+    (loaded c /= loaded c', "another tool"),
+    (coolants c /= coolants c', "the coolant")
+  ]
 
 -- | Points along a motion, at most 0.3 mm apart, and so near that their chords leave an arc by less
 -- than 0.001 mm.
