@@ -59,7 +59,7 @@ data Reason
 -- | Words for a reason.
 reasonText :: Reason -> String
 reasonText reason = case reason of
-  NotRead -> "a comment, the number of a line, an empty line, or text that the control does not read"
+  NotRead -> "a comment, the number of a line, an empty line, or what the control does not read"
   InForce -> "sets what is in force already, or what no motion uses"
   InTolerance -> "a position or a centre within the tolerance"
   RoundedRate -> "a feed or speed that is rounded to the same number"
@@ -111,20 +111,28 @@ changes allowed old new =
   cutChanges
     <> map
       (InState,)
-      ( ["rapid moves in the material" | isSameCount, not (sameLow allowed (lowRapids old) (lowRapids new))]
+      ( ["rapid moves in the material" | isSameCount, not isSameLow]
           <> concatMap (unsafeMove allowed demanded) new
           <> ["another stop" | isSameCount, stopsOf old /= stopsOf new]
           <> ["another wait" | isSameCount, not (sameWaits (waitsOf old) (waitsOf new))]
       )
   where
+    isSameLow = sameLow allowed (lowRapids old) (lowRapids new)
     isSameCount = length (cuts old) == length (cuts new)
     cutChanges
-      | isSameCount = concat (zipWith (changedCut allowed) (withNeighbours (cuts old)) (withNeighbours (cuts new)))
+      | isSameCount =
+        concat
+          ( zipWith
+              (changedCut allowed)
+              (withNeighbours (cuts old))
+              (withNeighbours (cuts new))
+          )
       | otherwise = [(InPath, "cuts are lost or added")]
     demanded = case cuts old of
       Moves _ _ _ _ _ c : _ -> offset c
       _ -> Nothing
-    sameWaits as bs = map fst as == map fst bs && and (zipWith (\a b -> abs (snd a - snd b) < 0.0005) as bs)
+    sameWaits as bs = map fst as == map fst bs && and (zipWith sameTime as bs)
+    sameTime a b = abs (snd a - snd b) < 0.0005
 
 -- | Motions that cut. A line without length is none, and one to the machine's zero of z or from
 -- there neither.
@@ -226,7 +234,9 @@ path event = case event of
   where
     two = 2 :: Int
     steps :: Double -> [Double]
-    steps length' = let n = max 1 (ceiling length') :: Int in [fromIntegral m / fromIntegral n | m <- [0 .. n]]
+    steps count =
+      let n = max 1 (ceiling count) :: Int
+       in [fromIntegral m / fromIntegral n | m <- [0 .. n]]
 
 -- | Distance of a position from a chain of straight lines.
 awayFrom :: [Place] -> Place -> Double
@@ -239,7 +249,8 @@ awayFrom chain p = case chain of
       (Just a', Just b', Just p') ->
         let along = zipWith (-) b' a'
             square = sum (map (\v -> v * v) along)
-            t = if square == 0 then 0 else max 0 (min 1 (sum (zipWith (*) along (zipWith (-) p' a')) / square))
+            product' = sum (zipWith (*) along (zipWith (-) p' a'))
+            t = if square == 0 then 0 else max 0 (min 1 (product' / square))
          in distance (map Just p') [Just (v + t * d) | (v, d) <- zip a' along]
       _ -> 1e9
 
@@ -268,11 +279,14 @@ clearsTheSame allowed before after = case (trace before, trace after) of
         hypotenuse (px - i) (py - j) <= hypotenuse (x - i) (y - j) && abs (pz - z) < 1e-9
       _ -> False
     hypotenuse a b = sqrt (a * a + b * b)
-    pointsOff a b = [(n, p) | (n, p) <- pointsOf a, all (\e -> awayFrom (path e) p > allowed) (cuts b)]
+    pointsOff a b =
+      [(n, p) | (n, p) <- pointsOf a, all (\e -> awayFrom (path e) p > allowed) (cuts b)]
     states event = case event of
-      Moves _ _ from to _ c -> (heightOf from, heightOf to, (feed c, rpm c, turns c), (loaded c, coolants c))
+      Moves _ _ from to _ c ->
+        (heightOf from, heightOf to, (feed c, rpm c, turns c), (loaded c, coolants c))
       _ -> (Nothing, Nothing, (Nothing, Nothing, Nothing), (Nothing, []))
-    isWithin a b = and [maybe False (<= z + allowed) (Map.lookup cell b) | (cell, z) <- Map.toList a]
+    isWithin a b =
+      and [maybe False (<= z + allowed) (Map.lookup cell b) | (cell, z) <- Map.toList a]
 
 -- | Radii of the tools, from the comments at the head of a file.
 toolRadii :: [String] -> [(Int, Double)]
@@ -302,7 +316,8 @@ cleared radii less points =
       [ (i, j)
         | i <- [ceiling ((x - r) / size) .. floor ((x + r) / size)],
           j <- [ceiling ((y - r) / size) .. floor ((y + r) / size)],
-          (fromIntegral i * size - x) ^ (2 :: Int) + (fromIntegral j * size - y) ^ (2 :: Int) <= r * r
+          let (dx, dy) = (fromIntegral i * size - x, fromIntegral j * size - y),
+          dx * dx + dy * dy <= r * r
       ]
     size = 0.25 :: Double
 
@@ -339,22 +354,25 @@ sameLow allowed old new = length old == length new && and (zipWith same old new)
 -- | Dangers of one motion by itself.
 unsafeMove :: Double -> Maybe Int -> Event -> [String]
 unsafeMove allowed demanded event = case event of
-  Moves n _ from to _ c ->
+  Moves n k from to _ c ->
     [ "line " <> show n <> ": " <> what
       | (True, what) <-
           [ (sideways from to && heightOf from /= Just above, "sideways at an unknown height"),
             (isNothing (heightOf to), "to an unknown height"),
             (isLow to && any isNothing to, "down at an unknown place"),
-            (isLow to && (lengthOf c /= loaded c || isNothing (loaded c)), "the length of the tool"),
+            (isLow to && lengthOf c /= loaded c, "the length of another tool"),
+            (isLow to && isNothing (loaded c), "an unknown tool"),
             (isLow to && offset c /= demanded, "the work offset"),
-            (isLow to && (isRadius c /= Just True || isPlain c /= Just True), "G8 or G40"),
+            (isLow to && (k > 0 || take 1 from /= take 1 to) && isRadius c /= Just True, "G8"),
+            (isLow to && isPlain c /= Just True, "G40"),
             (isLow to && any isNothing [isMetric c, isAbsolute c], "units or distances"),
-            ((isLow from || isLow to) && maybe True (> allowed + 1e-9) (blending c), "the path mode")
+            ((isLow from || isLow to) && isTooFar (blending c), "the path mode")
           ]
     ]
   Changes p | heightOf p /= Just above -> ["the tool is changed too low"]
   _ -> []
   where
+    isTooFar = maybe True (> allowed + 1e-9)
     sideways a b = take 2 a /= take 2 b && isNothing (heightOf a)
     isLow p = maybe False (< above) (heightOf p)
 
@@ -422,7 +440,9 @@ gapReasons allowed old new
   | map fst old == map fst new = states
   | length old == length new && and (zipWith (near `onFirst`) old new) = Just InTolerance : states
   | merged old == merged new = [Just DividedMove]
-  | (isAway old || isAway new) && all (\p -> awayFrom (ways old) p <= allowed) (ways new) = [Just AboveAll]
+  | isAway old || isAway new,
+    all (\p -> awayFrom (ways old) p <= allowed) (ways new) =
+    [Just AboveAll]
   | otherwise = [Nothing]
   where
     onFirst f a b = f (fst a) (fst b)

@@ -163,7 +163,8 @@ runLine n ws now = do
   let (codes, values) = partition ((`elem` ("GM" :: String)) . fst) ws
       has = (`elem` codes)
       value c = lookup c values
-  when (codes /= nub codes || any ((> 1) . length . (`only` codes)) groups) (Left "two words of a group")
+  when (codes /= nub codes) (Left "a code twice")
+  when (any ((> 1) . length . (`only` codes)) groups) (Left "two words of a group")
   when (not (null (codes \\ concat groups))) (Left "a word that nobody knows")
   when (map fst values /= nub (map fst values)) (Left "a letter twice")
   let changed = afterChange has value (control now)
@@ -224,7 +225,7 @@ afterModes :: ((Char, Double) -> Bool) -> (Char -> Maybe Double) -> Control -> C
 afterModes has value c =
   c
     { turns = if has ('M', 5) then Nothing else pick 'M' [3, 4] (turns c),
-      coolants = if has ('M', 9) then [] else nub (coolants c <> [m | m <- [7, 8], has ('M', fromIntegral m)]),
+      coolants = if has ('M', 9) then [] else nub (coolants c <> newCoolants),
       plane = pick 'G' [17, 18, 19] (plane c),
       isMetric = flag 21 20 (isMetric c),
       isPlain = flag 40 41 (isPlain c),
@@ -238,6 +239,7 @@ afterModes has value c =
       way = if has ('G', 80) then Nothing else pick 'G' [0 .. 3] (way c)
     }
   where
+    newCoolants = [m | m <- [7, 8], has ('M', fromIntegral m)]
     pick letter numbers old = case filter (has . (letter,) . fromIntegral) numbers of
       k : _ -> Just (k :: Int)
       [] -> old
@@ -261,7 +263,8 @@ afterModes has value c =
 displaced :: Control -> Control -> Run -> Run
 displaced old new now
   | offset old /= offset new = now {place = [Nothing, Nothing, upper]}
-  | lengthOf old /= lengthOf new || loaded old /= loaded new = now {place = take 2 (place now) <> [upper]}
+  | (lengthOf old, loaded old) /= (lengthOf new, loaded new) =
+    now {place = take 2 (place now) <> [upper]}
   | otherwise = now
   where
     upper = case drop 2 (place now) of
@@ -276,7 +279,7 @@ moveOf n has values now
   | otherwise = case way c of
     Nothing -> Left "no kind of motion"
     Just k
-      | has ('G', 53) && (k > 1 || isAbsolute c /= Just True) -> Left "machine coordinates by an arc"
+      | has ('G', 53) && (k > 1 || isAbsolute c /= Just True) -> Left "G53 needs G0 and G90"
       | k > 0 && feed c `elem` [Nothing, Just 0] -> Left "no feed"
       | otherwise -> do
         target <- traverse along (zip "XYZ" (place now))
@@ -291,7 +294,8 @@ moveOf n has values now
       Nothing -> Right old
       Just v
         | has ('G', 53) -> Right (if letter == 'Z' && v == 0 then Just above else Nothing)
-        | isAbsolute c == Just False -> maybe (Left "from nowhere") (Right . Just . (+ v * unit)) old
+        | isAbsolute c == Just False ->
+          maybe (Left "from nowhere") (Right . Just . (+ v * unit)) old
         | otherwise -> Right (Just (v * unit))
     centreOf k target = case (place now, target) of
       ([Just x, Just y, _], [Just x', Just y', _])

@@ -1,5 +1,5 @@
 -- | Judges the state of a modern control at each motion of a file: units, plane, modes, work
--- offset, tool and its length, spindle and path mode.
+-- offset, tool and its length, spindle, coolant and path mode.
 --
 -- A value that a file does not set is the one that the program before has left, so it is wrong as
 -- well. Commands that differ from those of the program, such as another tool or speed, are found by

@@ -67,11 +67,13 @@ lineLost, lineDoubled, linesExchanged, wordLost, codeReplaced :: [String] -> Gen
 lineLost file = do
   n <- anyLine file
   let (before, rest) = splitAt n file
-  pure (GcodeEdit "line left out" ("without line " <> at n <> concat (take 1 rest)) (before <> drop 1 rest))
+      what = "without line " <> at n <> concat (take 1 rest)
+  pure (GcodeEdit "line left out" what (before <> drop 1 rest))
 lineDoubled file = do
   n <- anyLine file
   let (before, rest) = splitAt n file
-  pure (GcodeEdit "line doubled" ("twice line " <> at n <> concat (take 1 rest)) (before <> take 1 rest <> rest))
+      what = "twice line " <> at n <> concat (take 1 rest)
+  pure (GcodeEdit "line doubled" what (before <> take 1 rest <> rest))
 linesExchanged file = do
   n <- choose (0, length file - 2)
   next <- arbitrary

@@ -2,46 +2,29 @@
 -- judge that shares no code with it ("GcodeJudge").
 --
 -- PARTC_EDITED_FILES sets another number of edits. They are then random; without it, the edits are
--- always the same, and docs/proof.md lists their counts. With PARTC_RECORD set, the list is written.
+-- always the same, and docs/proof.md lists their counts. With PARTC_RECORD set, the list is
+-- written.
 module Verify.EditedFileSpec (spec) where
 
-import Base.Result qualified as Result
 import CaseCount (askedCount)
-import Compile (Analysis (..), Compiled (..), Punched (..))
-import Compile qualified
-import Control.Monad (forM_, unless)
+import Control.Monad (forM_, unless, when)
 import Data.ByteString qualified as ByteString
-import Data.List (intercalate, nub, sort)
+import Data.List (intercalate, nub)
 import Data.Map.Strict (Map)
 import Data.Map.Strict qualified as Map
-import Data.Maybe (fromMaybe)
+import Data.Maybe (fromMaybe, isNothing)
 import Data.Text (Text)
 import Data.Text qualified as Text
 import Data.Text.Encoding qualified as Encoding
-import Files (filesBelow, readText)
-import Gcode.Heading qualified as Heading
-import Gcode.Writer (ToolFile (fileText))
+import Files (readText)
 import GcodeJudge (Reason (..), Verdict (..), clearsTheSame, reasonText, verdict)
+import GcodeSubject (Subject (..), judged, programs, subjectOf)
 import Generate.GcodeEdit (GcodeEdit (..), editKinds, gcodeEdit)
-import Machine.Machine qualified as Machine
-import Machines qualified
-import Part.Part (Part)
-import Project.LoadedProgram qualified as LoadedProgram
 import System.Environment (lookupEnv)
-import System.FilePath (takeExtension)
 import Test.Hspec hiding (after, before)
 import Test.QuickCheck.Gen (Gen (unGen), elements, generate)
 import Test.QuickCheck.Random (mkQCGen)
-import Verify.FromGcode qualified as FromGcode
 import Verify.Proof qualified as Proof
-
--- | A program with its own file.
-data Subject = Subject
-  { name :: FilePath,
-    compiled :: Compiled,
-    evaluated :: Part,
-    own :: [String]
-  }
 
 -- | Outcome of an edit.
 data Outcome
@@ -56,47 +39,35 @@ data Outcome
 
 spec :: Spec
 spec = describe "edited files" $ do
-  files <- runIO (sort . filter ((== ".part") . takeExtension) <$> filesBelow "test/gcode")
+  files <- runIO programs
   it "the file of each program is accepted as it is" $
     forM_ files $ \file -> do
       subject <- subjectOf file
-      isAccepted subject (own subject) `shouldBe` True
-      verdict allowed (own subject) (own subject) `shouldSatisfy` isSame
-  it "a file that cuts something else, or in an unsafe state, is refused; an accepted one has a reason" $ do
-    subjects <- mapM subjectOf files
-    asked <- askedCount "PARTC_EDITED_FILES"
-    let count = fromMaybe 5000 asked
-        edits = mapM (const (randomEdit subjects)) [1 .. count]
-    chosen <- if asked == Nothing then pure (unGen edits (mkQCGen 31) 30) else generate edits
-    let outcomes = [(kind edit, outcomeOf subject edit) | (subject, edit) <- chosen]
-        wrong =
-          [ name subject <> ", " <> change edit <> ": " <> why
-            | ((subject, edit), (_, Wrong why)) <- zip chosen outcomes
-          ]
-    putStrLn (table outcomes)
-    unless (null wrong) (expectationFailure (unlines (nub wrong)))
-    if asked == Nothing then recorded (Text.pack (table outcomes)) else pure ()
-  where
-    isSame v = case v of
-      Same _ -> True
-      Changed _ -> False
+      isAccepted subject (ownLines subject) `shouldBe` True
+      verdict allowed (ownLines subject) (ownLines subject) `shouldBe` Same [Just NotRead]
+  it
+    "a file that cuts something else, or in an unsafe state, is refused; others have a reason"
+    $ do
+      subjects <- mapM subjectOf files
+      asked <- askedCount "PARTC_EDITED_FILES"
+      let edits = mapM (const (randomEdit subjects)) [1 .. fromMaybe 5000 asked]
+      chosen <- if isNothing asked then pure (unGen edits (mkQCGen 31) 30) else generate edits
+      let outcomes = [(kind edit, outcomeOf subject edit) | (subject, edit) <- chosen]
+          wrong =
+            [ name subject <> ", " <> change edit <> ": " <> why
+              | ((subject, edit), (_, Wrong why)) <- zip chosen outcomes
+            ]
+      putStrLn (table outcomes)
+      unless (null wrong) (expectationFailure (unlines (nub wrong)))
+      when (isNothing asked) (recorded (Text.pack (table outcomes)))
 
--- | Compiles a program.
-subjectOf :: FilePath -> IO Subject
-subjectOf file = do
-  text <- readText file
-  let loaded = LoadedProgram.fromText (Text.pack file) text
-      job = Machines.jobFor (Machines.named "linuxcnc-mill") []
-  case (Result.output (Compile.compile job loaded), Result.output (Compile.analyse [] loaded)) of
-    (Just (c : _), Just Analysis {part})
-      | [f] <- files (punched c) ->
-        pure (Subject file c part (lines (Text.unpack (fileText f))))
-    _ -> fail (file <> " has no file")
+ownLines :: Subject -> [String]
+ownLines = lines . Text.unpack . own
 
 randomEdit :: [Subject] -> Gen (Subject, GcodeEdit)
 randomEdit subjects = do
   subject <- elements subjects
-  edit <- gcodeEdit (own subject)
+  edit <- gcodeEdit (ownLines subject)
   pure (subject, edit)
 
 -- | Largest deviation that the programs allow: their tolerance of 0.02 mm and one pulse.
@@ -104,27 +75,20 @@ allowed :: Double
 allowed = 0.021
 
 outcomeOf :: Subject -> GcodeEdit -> Outcome
-outcomeOf subject edit = case (isAccepted subject (edited edit), verdict allowed (own subject) (edited edit)) of
+outcomeOf subject edit = case (isAccepted subject new, verdict allowed old new) of
   (False, Changed _) -> Refused
   (False, Same _) -> RefusedSame
   (True, Changed why)
-    | clearsTheSame allowed (own subject) (edited edit) -> Accepted [OtherLoops]
+    | clearsTheSame allowed old new -> Accepted [OtherLoops]
     | otherwise -> Wrong ("accepted, but " <> why)
   (True, Same found) -> maybe (Wrong "accepted without a reason") Accepted (sequence found)
+  where
+    (old, new) = (ownLines subject, edited edit)
 
 -- | Verdict of the proof.
 isAccepted :: Subject -> [String] -> Bool
-isAccepted Subject {compiled, evaluated} text = case Machine.programForm (machine compiled) of
-  Nothing -> False
-  Just form ->
-    case FromGcode.readTexts
-      (machine compiled)
-      form
-      (Heading.fromToolpath (toolpath compiled))
-      (program (punched compiled))
-      [Text.pack (unlines text)] of
-      Left _ -> False
-      Right reading -> Proof.isProven (Compile.proveGcode form (Just evaluated) compiled reading)
+isAccepted subject text =
+  either (const False) Proof.isProven (judged subject (Text.pack (unlines text)))
 
 -- Table -------------------------------------------------------------------------------------------
 
@@ -158,8 +122,12 @@ recorded made = do
   recording <- lookupEnv "PARTC_RECORD"
   let begin = "<!-- edited files -->\n"
       (before, rest) = Text.breakOn begin page
-      (inside, after) = Text.breakOn "<!-- end of edited files -->" (Text.drop (Text.length begin) rest)
+      (inside, after) =
+        Text.breakOn "<!-- end of edited files -->" (Text.drop (Text.length begin) rest)
       wanted = "\n" <> made <> "\n"
   case recording of
-    Just _ -> ByteString.writeFile "docs/proof.md" (Encoding.encodeUtf8 (before <> begin <> wanted <> after))
+    Just _ ->
+      ByteString.writeFile
+        "docs/proof.md"
+        (Encoding.encodeUtf8 (before <> begin <> wanted <> after))
     Nothing -> inside `shouldBe` wanted

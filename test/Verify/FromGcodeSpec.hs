@@ -3,23 +3,13 @@
 module Verify.FromGcodeSpec (spec) where
 
 import Base.Quantity (Mm (..))
-import Base.Result qualified as Result
-import Compile (Analysis (..), Compiled (..), Punched (..))
-import Compile qualified
 import Data.Text (Text)
 import Data.Text qualified as Text
-import Files (readText)
 import Gcode.Block (Fault (..), FaultReason (..))
-import Gcode.Heading qualified as Heading
 import Gcode.ModalState (Coolant (..))
-import Gcode.Writer (ToolFile (fileText))
-import Machine.Machine qualified as Machine
-import Machines qualified
-import Project.LoadedProgram qualified as LoadedProgram
+import GcodeSubject (Subject (own), judged, subjectOf)
 import Test.Hspec
 import Verify.ControlFault (ControlFault (..), ControlFinding (..))
-import Verify.FromGcode qualified as FromGcode
-import Verify.Proof (Proof (..))
 import Verify.Proof qualified as Proof
 
 -- | Verdict about a file.
@@ -66,7 +56,10 @@ spec = do
       changed "bar" "G4 P3" "G4 P9" `gives` Judged [] 0
       changed "plate" "G4 P3\n" "" `gives` Judged [] 0
     it "that comes down over another point of a rapid move" $
-      changedLast "bar" "G0 X35.000 Y5.000\nG0 Z2.000\nG0 X10.000 Y15.000 Z15.000\nG0 Z2.000" "G0 X10.000 Y15.000\nG0 Z15.000\nG0 Z2.000"
+      changedLast
+        "bar"
+        "G0 X35.000 Y5.000\nG0 Z2.000\nG0 X10.000 Y15.000 Z15.000"
+        "G0 X10.000 Y15.000\nG0 Z15.000"
         `gives` Judged [] 0
     it "that stops on its way down from the retract height" $
       changedLast "bar" "G0 Z15.000\nG0 X5.000 Y5.000 Z2.000" "G0 X5.000 Y5.000\nG0 Z10\nG0 Z2"
@@ -78,14 +71,14 @@ spec = do
 
 -- | Outcome of a program's own file with its first lines of a text replaced.
 changed :: FilePath -> Text -> Text -> IO Outcome
-changed name old new = outcome name (replacing (Text.breakOn old))
-  where
-    replacing split text = let (before', rest) = split text in before' <> new <> Text.drop (Text.length old) rest
+changed name old new = outcome name $ \text ->
+  let (begin, rest) = Text.breakOn old text in begin <> new <> Text.drop (Text.length old) rest
 
 -- | Does the same with the last lines of a text.
 changedLast :: FilePath -> Text -> Text -> IO Outcome
 changedLast name old new = outcome name $ \text ->
-  let (before', rest) = Text.breakOnEnd old text in Text.dropEnd (Text.length old) before' <> new <> rest
+  let (begin, rest) = Text.breakOnEnd old text
+   in Text.dropEnd (Text.length old) begin <> new <> rest
 
 gives :: IO Outcome -> Outcome -> Expectation
 gives action wanted = action >>= (`shouldBe` wanted)
@@ -107,18 +100,12 @@ givesOther action wanted =
 -- | Reads and judges the file of a program after a change.
 outcome :: FilePath -> (Text -> Text) -> IO Outcome
 outcome name change = do
-  text <- readText ("test/gcode/" <> name <> ".part")
-  let loaded = LoadedProgram.fromText (Text.pack name) text
-      job = Machines.jobFor (Machines.named "linuxcnc-mill") []
-  case (Result.output (Compile.compile job loaded), Result.output (Compile.analyse [] loaded)) of
-    (Just (c : _), Just Analysis {part})
-      | [f] <- files (punched c),
-        Just form <- Machine.programForm (machine c),
-        own <- fileText f,
-        change own /= own ->
-        pure $ case FromGcode.readTexts (machine c) form (Heading.fromToolpath (toolpath c)) (program (punched c)) [change own] of
-          Left fault' -> NotRead fault'
-          Right reading ->
-            let proof' = Compile.proveGcode form (Just part) c reading
-             in Judged [(n, f') | ControlFinding n _ f' <- controlFindings proof'] (length (Proof.findings proof'))
-    _ -> fail (name <> " has no such line")
+  subject <- subjectOf ("test/gcode/" <> name <> ".part")
+  let text = change (own subject)
+  text `shouldNotBe` own subject
+  pure $ case judged subject text of
+    Left fault' -> NotRead fault'
+    Right proof ->
+      Judged
+        [(n, f) | ControlFinding n _ f <- Proof.controlFindings proof]
+        (length (Proof.findings proof))
