@@ -62,7 +62,7 @@
 (defconst part-mode-constants '("pi" "true" "false")
   "The constants of the language.")
 
-(defconst part-mode-units '("mm/min" "m/min" "in/min" "mm" "cm" "m" "in" "deg" "rad" "rpm")
+(defconst part-mode-units '("mm/min" "m/min" "in/min" "mm/rev" "in/rev" "mm" "cm" "m" "in" "deg" "rad" "rpm")
   "The units of numbers.")
 
 ;; Colours
@@ -86,6 +86,7 @@
     ("\\_<lead[ \t]+\\(out\\)\\_>" 1 font-lock-keyword-face)
     ("\\_<\\(?:spindle\\|coolant\\)[ \t]+\\(off\\)\\_>" 1 font-lock-keyword-face)
     ("\\_<spindle[ \t]+\\(manual\\)\\_>" 1 font-lock-keyword-face)
+    ("^[ \t]*spindle[ \t].*\\_<\\(limit\\)\\_>" 1 font-lock-keyword-face)
     ("\\_<change\\_>.*)[ \t]*\\(at\\)\\_>" 1 font-lock-keyword-face)
     ("^[ \t]*dwell[ \t].*\\_<\\(s\\)[ \t]*\\(?:--.*\\)?$" 1 font-lock-keyword-face)
     ("\\_<corners[ \t]+\\(round\\|sharp\\)\\_>" 1 font-lock-keyword-face)

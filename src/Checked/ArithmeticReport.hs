@@ -5,6 +5,8 @@
 module Checked.ArithmeticReport
   ( unitDivisors,
     bareCoordinatesReport,
+    cuttingSpeedReport,
+    bareCuttingSpeedReport,
     commaMissingReport,
     radiansReport,
     pointsAddedReport,
@@ -28,6 +30,25 @@ secondWords, revolutionWords, toothWords :: [Text]
 secondWords = Text.words "s sec second seconds"
 revolutionWords = Text.words "rev revolution turn r u об"
 toothWords = Text.words "tooth t z flute teeth"
+
+-- | The report of a constant cutting speed without a limit.
+cuttingSpeedReport :: Region -> Report
+cuttingSpeedReport region =
+  (at region "E0364" "a cutting speed needs a limit for the speed of the spindle")
+    { message =
+        [ "Near the axis a constant cutting speed asks for any speed of the spindle, and the chuck \
+          \may lose the part."
+        ],
+      hints = ["Write the largest speed after it, as in ‘spindle cw 180 m/min limit 2500 rpm’."]
+    }
+
+-- | The report of a cutting speed without a unit.
+bareCuttingSpeedReport :: Region -> Report
+bareCuttingSpeedReport region =
+  (at region "E0365" "this cutting speed has no unit")
+    { message = ["A number without a unit would be taken for mm/min here."],
+      fixes = [Fix.insertion "Write its unit: m/min." (end region) " m/min"]
+    }
 
 -- | The report of the coordinates of a point without its brackets.
 bareCoordinatesReport :: Region -> Report
@@ -79,11 +100,18 @@ pointsAddedReport region left right half =
 unknownUnitReport :: Region -> Numeral -> Unit -> Text -> Maybe Double -> Report
 unknownUnitReport region n unit word known =
   (at region "E0201" (quote (unitName unit <> "/" <> word) <> " is no unit of the language"))
-    { message = ["Feeds are given per minute: mm/min, m/min or in/min."],
+    { message = ["Feeds are given for a minute or for a turn: mm/min, m/min, in/min, mm/rev or in/rev."],
       fixes =
         [ Fix.exchange ("Write " <> perMinute 60 <> ".") region (perMinute 60)
           | word `elem` secondWords
         ]
+          <> [ Fix.exchange
+                 ("Write " <> perTurn <> ", if it is the feed of a statement.")
+                 region
+                 perTurn
+               | word `elem` revolutionWords,
+                 word /= "rev"
+             ]
           <> [ Fix.proposed
                  ( Fix.exchange
                      ( "Write " <> perMinute speed <> ": the feed per revolution times the "
@@ -107,4 +135,5 @@ unknownUnitReport region n unit word known =
              ]
     }
   where
+    perTurn = digits n <> " " <> unitName unit <> "/rev"
     perMinute factor = scaledDigits factor n <> " " <> unitName unit <> "/min"

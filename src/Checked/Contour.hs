@@ -13,6 +13,7 @@ import Base.Name (Name (..))
 import Base.Region (Located (..))
 import Checked.Deferred (Deferred, mapStrict, resolveAll)
 import Checked.Expression (TypingEnvironment, contourElement, expect, repetition)
+import Checked.Feed (cutFeed)
 import Checked.Inference (Infer)
 import Checked.Inference qualified as Inference
 import Checked.Piece qualified as Piece
@@ -83,7 +84,7 @@ modifier ::
   Surface.Modifier ->
   Infer (Deferred Checked.Modifier)
 modifier env columns (Located at m) = fmap (Located at .) $ case m of
-  Surface.ElementFeed e -> (Checked.ElementFeed .) <$> expect env Type.feed e
+  Surface.ElementFeed e -> (Checked.ElementFeed .) <$> cutFeed env e
   Surface.Slow -> pure (const Checked.Slow)
   Surface.ElementAllowance e -> (Checked.ElementAllowance .) <$> expect env Type.len e
   Surface.Bevel e ->

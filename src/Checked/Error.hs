@@ -63,6 +63,10 @@ data Error
   | -- | a feed whose unit the language does not have: its number, the unit of its length, the word
     -- after the stroke, and the speed of the spindle in turns per minute if the program gives it
     UnknownUnit Region Numeral Unit Text (Maybe Double)
+  | -- | a cutting speed without the limit of the spindle's speed
+    CuttingSpeedWithoutLimit Region
+  | -- | a cutting speed whose number has no unit
+    CuttingSpeedWithoutUnit Region
   | -- | the coordinates of a point without its brackets
     BareCoordinates Region
   | -- | a number with pi that is used as an angle without a unit
@@ -221,6 +225,8 @@ toReport err = case err of
   CommaMissing region offset -> commaMissingReport region offset
   PointsAdded region left right half -> pointsAddedReport region left right half
   UnknownUnit region n unit word speed -> unknownUnitReport region n unit word speed
+  CuttingSpeedWithoutLimit region -> cuttingSpeedReport region
+  CuttingSpeedWithoutUnit region -> bareCuttingSpeedReport region
   BareCoordinates region -> bareCoordinatesReport region
   RadiansWithoutUnit region -> radiansReport region
   DefinedTwice region (Name name) before again uses ->

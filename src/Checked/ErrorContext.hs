@@ -285,7 +285,7 @@ spindleSpeed program at = go Nothing program
       With _ body -> go speed body
       _ -> speed
     after speed s = case value s of
-      Spindle (Spinning _ (Just (Located _ (Literal n _)))) -> Just (amount n)
+      Spindle (Spinning _ (Just (Located _ (Literal n _))) Nothing) -> Just (amount n)
       _ | any (isCommand . value) (SyntaxWalk.statementsIn s) -> Nothing
       _ -> speed
     everyIn = concatMap SyntaxWalk.statementsIn

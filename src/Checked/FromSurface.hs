@@ -30,6 +30,7 @@ import Checked.Expression
     repetition,
     spatialPoint,
   )
+import Checked.Feed (cutFeed)
 import Checked.Inference (Infer)
 import Checked.Inference qualified as Inference
 import Checked.Piece qualified as Piece
@@ -162,7 +163,7 @@ statement env (Located at s) = case s of
       (\number' c' sol -> Checked.Tool (($ sol) <$> number') (c' sol))
         <$> traverse (expect env Type.number) number
           <*> cutter env c
-  Surface.Feed e -> one (fmap Checked.Feed <$> expect env Type.feed e)
+  Surface.Feed e -> one (fmap Checked.Feed <$> cutFeed env e)
   Surface.Tolerance accuracy -> one (fmap Checked.Tolerance <$> tolerance env accuracy)
   Surface.Clearance e -> one (fmap Checked.Clearance <$> expect env Type.len e)
   Surface.From e -> one (fmap Checked.From <$> spatialPoint env e)
@@ -445,9 +446,21 @@ spindle :: TypingEnvironment -> Surface.Spin -> Infer (Deferred Checked.Spin)
 spindle env spin = case spin of
   Surface.SpindleStop -> pure (const Checked.SpindleStop)
   Surface.SpindleByHand -> pure (const Checked.SpindleByHand)
-  Surface.Spinning sense speed -> do
+  Surface.Spinning sense (Just speed) (Just limit) -> do
+    when (isBare speed) (Inference.mistake (CuttingSpeedWithoutUnit (region speed)))
+    (\speed' limit' sol -> Checked.CuttingAt sense (speed' sol) (limit' sol))
+      <$> expect env Type.feed speed <*> expect env Type.spindleSpeed limit
+  Surface.Spinning _ (Just speed@(Located at (Surface.Literal _ (Just unit)))) Nothing
+    | fst (Type.ofUnit unit) == Type.feed -> do
+      Inference.mistake (CuttingSpeedWithoutLimit at)
+      (\_ _ -> Checked.SpindleStop) <$> expect env Type.feed speed
+  Surface.Spinning sense speed _ -> do
     speed' <- traverse (expect env Type.spindleSpeed) speed
     pure (\sol -> Checked.Spinning sense (($ sol) <$> speed'))
+  where
+    isBare e = case value e of
+      Surface.Literal _ Nothing -> True
+      _ -> False
 
 -- | Checks an assertion. It is an inequality, an equality with an optional tolerance, or another
 -- expression that is true or false. @within@ is the tolerance, which only an equality may have.

@@ -14,6 +14,7 @@ import Checked.Deferred (Deferred)
 import Checked.Error (Error (..))
 import Checked.ErrorFix (unwritten)
 import Checked.Expression (TypingEnvironment, expect, spatialPoint)
+import Checked.Feed (cutFeed)
 import Checked.Inference (Infer)
 import Checked.Inference qualified as Inference
 import Checked.Syntax (Settings (..))
@@ -74,7 +75,7 @@ setting env statement (Located at s) = do
     Surface.CompensationBy who -> pure (\_ o -> o {compensation = Just (Located at who)})
     Surface.StartNear e ->
       (\e' sol o -> o {startNear = Just (Located at (e' sol))}) <$> expect env Type.aPoint e
-    Surface.Plunge e -> (\e' sol o -> o {plunge = Just (e' sol)}) <$> expect env Type.feed e
+    Surface.Plunge e -> (\e' sol o -> o {plunge = Just (e' sol)}) <$> cutFeed env e
     Surface.Peck e -> (\e' sol o -> o {peck = Just (e' sol)}) <$> len e
     Surface.Islands es ->
       (\es' sol o -> o {islands = map ($ sol) es'})
@@ -94,7 +95,7 @@ stop env (Surface.Stop p pace) = do
   pace' <- case pace of
     Surface.Cutting -> pure (const Checked.Cutting)
     Surface.Rapid -> pure (const Checked.Rapid)
-    Surface.AtFeed f -> (Checked.AtFeed .) <$> expect env Type.feed f
+    Surface.AtFeed f -> (Checked.AtFeed .) <$> cutFeed env f
   pure (\sol -> Checked.Stop (p' sol) (pace' sol))
 
 -- | Checks an expression that must be a contour or a list of contours.

@@ -30,6 +30,7 @@ module Checked.Syntax
     Modifier_ (..),
     Link,
     Link_ (..),
+    CutFeedExpr (..),
     Stop (..),
     Pace (..),
     Builtin (..),
@@ -117,7 +118,7 @@ type Statement = Located Statement_
 data Statement_
   = -- | the number of the tool, if the program gives one, and the tool
     Tool (Maybe Expr) Cutter
-  | Feed Expr
+  | Feed CutFeedExpr
   | Tolerance Accuracy
   | Clearance Expr
   | From Expr
@@ -217,7 +218,12 @@ data Accuracy = Within Expr | Between Expr Expr
 
 -- | A command to the spindle: to rotate in a sense, with a speed in turns per minute if there is
 -- one, or to stop. The last constructor says that the spindle is switched by hand.
-data Spin = Spinning Sense (Maybe Expr) | SpindleStop | SpindleByHand
+data Spin
+  = Spinning Sense (Maybe Expr)
+  | -- | a constant cutting speed and the limit of the speed of the spindle
+    CuttingAt Sense Expr Expr
+  | SpindleStop
+  | SpindleByHand
   deriving stock (Eq, Show)
 
 -- | A condition that must hold; otherwise evaluation reports a mistake.
@@ -250,7 +256,7 @@ data Settings = Settings
     -- | the region of the setting, and its point
     startNear :: Maybe (Located Expr),
     -- | the feed of moves down into the material
-    plunge :: Maybe Expr,
+    plunge :: Maybe CutFeedExpr,
     -- | the largest depth of a peck, which is a step of drilling before the drill is retracted
     peck :: Maybe Expr,
     -- | the islands of a pocket: expressions of contours and of lists of contours
@@ -371,7 +377,7 @@ data Item_
 type Modifier = Located Modifier_
 
 -- | A property of one element of a contour: feed, slow-down at its end, allowance, or bevel.
-data Modifier_ = ElementFeed Expr | Slow | ElementAllowance Expr | Bevel Expr
+data Modifier_ = ElementFeed CutFeedExpr | Slow | ElementAllowance Expr | Bevel Expr
   deriving stock (Eq, Show)
 
 -- | A link of the checked program, with its region.
@@ -390,11 +396,15 @@ data Link_
     Chamfer {-# UNPACK #-} Expr
   deriving stock (Eq, Show)
 
+-- | A feed: for a minute, or for one turn of the spindle, with the region of the whole feed.
+data CutFeedExpr = ForMinute Expr | ForTurn Region Expr
+  deriving stock (Eq, Show)
+
 -- | A stop: the point at which a move without cutting ends, and the speed of the move.
 data Stop = Stop {point :: Expr, pace :: Pace}
   deriving stock (Eq, Show)
 
 -- | The speed of a move without cutting: the feed in force, the highest speed of the machine, or a
 -- feed of its own.
-data Pace = Cutting | Rapid | AtFeed Expr
+data Pace = Cutting | Rapid | AtFeed CutFeedExpr
   deriving stock (Eq, Show)

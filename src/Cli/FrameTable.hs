@@ -29,7 +29,7 @@ import Frame.Frame (Frame (..), FrameMotion (..), FrameProgram, PlannedFrame (..
 import Frame.Frame qualified as Frame
 import Geometry.Carrier (Sense (..))
 import Geometry.Vec qualified as Vec
-import Machine.Machine (CommandName (..), FeedCode (..), Machine, RotaryAxis, RotaryForm (..))
+import Machine.Machine (CommandName (..), Machine, RotaryAxis, RotaryForm (..))
 import Machine.Machine qualified as Machine
 
 -- | A column: its alignment, its heading, and the function that makes its cell for a row.
@@ -84,7 +84,7 @@ framesJson machine source program = Text.concat (map row (numbered program))
   where
     row n =
       let f = frame (planned n)
-          FeedCode s = feedCode f
+          s = Machine.codeNumber (feedCode f)
           p = Frame.position machine (to n)
        in jsonLine
             ( [ "frame" .= number n,
@@ -246,7 +246,7 @@ roleWord r = case r of
   Commanding -> "command"
 
 speedWord :: Frame -> Text
-speedWord f = let FeedCode s = feedCode f in Decimal.whole s
+speedWord = Decimal.whole . Machine.codeNumber . feedCode
 
 feedWord :: LengthUnit -> Feed -> Text
 feedWord unit (Feed f) = Decimal.shortIn unit 2 (Mm f)

@@ -344,6 +344,8 @@ commandRows m =
     | (event, os) <-
         [ ("spindle clockwise", spindleClockwise o),
           ("spindle counter-clockwise", spindleCounterClockwise o),
+          ("cutting speed clockwise", surfaceClockwise o),
+          ("cutting speed counter-clockwise", surfaceCounterClockwise o),
           ("spindle off", spindleOff o),
           ("coolant on", coolantOn o),
           ("coolant off", coolantOff o),
@@ -378,6 +380,8 @@ valueText v = case v of
   Diameter -> "the cutter's diameter"
   InSeconds -> "the seconds given"
   InMilliseconds -> "the milliseconds of the seconds given"
+  InMetres -> "the cutting speed in m/min"
+  SpeedLimit -> "the limit in turns a minute"
 
 stepText :: Map Int Double -> Text
 stepText t = case (Map.lookupMin t, Map.lookupMax t) of

@@ -28,6 +28,7 @@ import Frame.Instruction (FeedMode (..), Instruction (..))
 import Frame.Instruction qualified as Instruction
 import Machine.Machine (Braking (..), BrakingForm (..), FeedMeasure (..), Machine)
 import Machine.Machine qualified as Machine
+import Part.CutFeed qualified as CutFeed
 import Part.Part (Pace (..))
 import Toolpath.Toolpath (Move, pace)
 import Toolpath.Toolpath qualified as Toolpath
@@ -45,7 +46,9 @@ applied machine instructions = case brakingForm (Machine.braking machine) of
 obtained :: Machine -> Move -> Double
 obtained machine m = case pace m of
   Rapid -> let Feed v = FeedCode.rapidFeed machine in v / 60
-  At (Located _ asked) -> let Feed v = nearestFeed machine asked in v / 60
+  At (Located _ asked) -> case CutFeed.perMinute asked of
+    Just feed -> let Feed v = nearestFeed machine feed in v / 60
+    Nothing -> snd (Machine.slowest machine) / 60
 
 -- | Feed in mm/min that the machine gives for the feed @asked@, limited to the machine's range. If
 -- the feed codes are frequencies of the leading axis, the feed depends on the direction of the

@@ -39,6 +39,8 @@ import Machine.Machine
         spindleClockwise,
         spindleCounterClockwise,
         spindleOff,
+        surfaceClockwise,
+        surfaceCounterClockwise,
         toolChange
       ),
     CompensationCommands (..),
@@ -48,6 +50,7 @@ import Machine.Machine
     Word' (..),
   )
 import Machine.Machine qualified as Machine
+import Part.CutFeed (SpindleRate (..))
 import Part.Part (Command, Sense (..), Switch (..))
 import Part.Part qualified as Part
 
@@ -88,6 +91,7 @@ untranslated region c = case c of
   Part.OptionalStop -> refused (CannotWait region StopCommand)
   Part.Dwell _ -> refused (CannotWait region DwellCommand)
   Part.SpindleByHand -> Translation [] False [] []
+  Part.SpindleOn _ (CuttingSpeed _ _) -> refused (NoCuttingSpeed region)
   Part.SpindleOn _ _ -> byHand
   Part.SpindleOff -> byHand
   Part.CoolantTo _ -> byHand
@@ -99,6 +103,8 @@ untranslated region c = case c of
 -- | Words that a machine has for a command; empty if it has none.
 wordsFor :: CommandWords -> Command -> [CommandWord]
 wordsFor table c = case c of
+  Part.SpindleOn Clockwise (CuttingSpeed _ _) -> surfaceClockwise table
+  Part.SpindleOn CounterClockwise (CuttingSpeed _ _) -> surfaceCounterClockwise table
   Part.SpindleOn Clockwise _ -> spindleClockwise table
   Part.SpindleOn CounterClockwise _ -> spindleCounterClockwise table
   Part.SpindleOff -> spindleOff table
@@ -137,6 +143,8 @@ numbersFor machine c CommandWord {commandName, value} = map (commandName,) $ cas
   Diameter -> []
   InSeconds -> [dwellNumber scale t | Part.Dwell t <- [c]]
   InMilliseconds -> [dwellNumber (1000 * scale) t | Part.Dwell t <- [c]]
+  InMetres -> [round (v / 1000) | Part.SpindleOn _ (CuttingSpeed v _) <- [c]]
+  SpeedLimit -> [round limit | Part.SpindleOn _ (CuttingSpeed _ limit) <- [c]]
   where
     scale = 10 ^ Machine.commandDecimals machine commandName
 
@@ -150,7 +158,9 @@ dwellNumber scale (Seconds t) = max 1 (ceiling (t * scale - 1e-6))
 -- speed.
 spindleSpeed :: Command -> Maybe Double
 spindleSpeed c = case c of
-  Part.SpindleOn _ speed -> speed
+  Part.SpindleOn _ (TurnsPerMinute n) -> Just n
+  Part.SpindleOn _ (CuttingSpeed _ _) -> Nothing
+  Part.SpindleOn _ NoRate -> Nothing
   Part.SpindleOff -> Nothing
   Part.CoolantTo _ -> Nothing
   Part.Auxiliary _ -> Nothing
@@ -218,6 +228,8 @@ compensationOn machine asked side radius@(Mm r) =
       Step _ -> Nothing
       InSeconds -> Nothing
       InMilliseconds -> Nothing
+      InMetres -> Nothing
+      SpeedLimit -> Nothing
     Mm planeResolution = Machine.planeResolution machine
 
 -- | Words that switch cutter compensation off.

@@ -6,6 +6,7 @@
 -- can be compared.
 module Frame.CommandState
   ( CommandState (..),
+    SpindleNumbers (..),
     initial,
     isEvent,
     after,
@@ -21,6 +22,7 @@ import Machine.Machine
     Machine,
   )
 import Machine.Machine qualified as Machine
+import Part.CutFeed (SpindleRate (..))
 import Part.Part (Command (..), Sense (..), Switch (..))
 
 -- | Tool, spindle and coolant.
@@ -28,10 +30,26 @@ data CommandState = CommandState
   { -- | number of the tool; Nothing for a first tool without a number
     tool :: Maybe Int,
     -- | sense and speed in turns per minute; Nothing while the spindle is off
-    spindle :: Maybe (Sense, Maybe Int),
+    spindle :: Maybe (Sense, SpindleNumbers),
     coolantRuns :: Bool
   }
   deriving stock (Eq, Show)
+
+-- | Speed of the spindle in whole numbers.
+data SpindleNumbers
+  = NoNumber
+  | -- | turns per minute
+    TurnNumber Int
+  | -- | constant cutting speed in m\/min, and the limit in turns per minute; Nothing without a limit
+    SurfaceNumbers Int (Maybe Int)
+  deriving stock (Eq, Show)
+
+-- | Whole numbers of a rate of the spindle.
+spindleNumbers :: SpindleRate -> SpindleNumbers
+spindleNumbers rate = case rate of
+  NoRate -> NoNumber
+  TurnsPerMinute n -> TurnNumber (round n)
+  CuttingSpeed v limit -> SurfaceNumbers (round (v / 1000)) (Just (round limit))
 
 -- | State at the beginning of a program.
 initial :: CommandState
@@ -40,7 +58,7 @@ initial = CommandState {tool = Nothing, spindle = Nothing, coolantRuns = False}
 -- | State after a command. A change of the tool stops the spindle.
 after :: CommandState -> Command -> CommandState
 after state command = case command of
-  SpindleOn sense speed -> state {spindle = Just (sense, round <$> speed)}
+  SpindleOn sense speed -> state {spindle = Just (sense, spindleNumbers speed)}
   SpindleOff -> state {spindle = Nothing}
   CoolantTo SwitchOn -> state {coolantRuns = True}
   CoolantTo SwitchOff -> state {coolantRuns = False}
@@ -70,7 +88,7 @@ between machine before now =
   filter
     (not . null)
     [ if tool before == tool now then [] else numbers (tool now) (toolChange table),
-      if hasChanged then spindleNumbers else [],
+      if hasChanged then spindleWords else [],
       if coolantRuns before == coolantRuns now then [] else coolantNumbers
     ]
   where
@@ -78,9 +96,14 @@ between machine before now =
     -- A change of the tool stops the spindle.
     spindleBefore = if tool before == tool now then spindle before else Nothing
     hasChanged = spindleBefore /= spindle now
-    spindleNumbers = case spindle now of
-      Just (Clockwise, speed) -> numbers speed (spindleClockwise table)
-      Just (CounterClockwise, speed) -> numbers speed (spindleCounterClockwise table)
+    spindleWords = case spindle now of
+      Just (Clockwise, SurfaceNumbers v limit) -> surface v limit (surfaceClockwise table)
+      Just (CounterClockwise, SurfaceNumbers v limit) ->
+        surface v limit (surfaceCounterClockwise table)
+      Just (Clockwise, TurnNumber n) -> numbers (Just n) (spindleClockwise table)
+      Just (CounterClockwise, TurnNumber n) -> numbers (Just n) (spindleCounterClockwise table)
+      Just (Clockwise, NoNumber) -> numbers Nothing (spindleClockwise table)
+      Just (CounterClockwise, NoNumber) -> numbers Nothing (spindleCounterClockwise table)
       Nothing -> numbers Nothing (spindleOff table)
     coolantNumbers = numbers Nothing ((if coolantRuns now then coolantOn else coolantOff) table)
 
@@ -95,3 +118,23 @@ numbers argument ws = [(commandName w, n) | w <- ws, Just n <- [numberOf (value 
       Diameter -> Nothing
       InSeconds -> Nothing
       InMilliseconds -> Nothing
+      InMetres -> Nothing
+      SpeedLimit -> Nothing
+
+-- | Words of a spindle at a constant cutting speed in m\/min, with its limit.
+surface :: Int -> Maybe Int -> [CommandWord] -> [(CommandName, Int)]
+surface v limit ws =
+  [ (commandName w, n)
+    | w <- ws,
+      Just n <-
+        [ case value w of
+            Fixed k -> Just k
+            InMetres -> Just v
+            SpeedLimit -> limit
+            Argument -> Nothing
+            Step _ -> Nothing
+            Diameter -> Nothing
+            InSeconds -> Nothing
+            InMilliseconds -> Nothing
+        ]
+  ]

@@ -35,6 +35,14 @@ data Error
   = -- | a feed along the path for which the machine has no code: the feed asked for, and the lowest
     -- and the highest feed of the machine
     FeedOutOfRange Region Feed Feed Feed
+  | -- | a feed for one turn of the spindle for which the machine has no code: the lowest and the
+    -- highest feed of the machine for one turn
+    TurnFeedOutOfRange Region Mm Mm
+  | -- | a feed for one turn of the spindle, on a machine that needs a feed per minute, where the
+    -- speed of the spindle is not known
+    TurnFeedUnknown Region
+  | -- | a constant cutting speed, on a machine that has none
+    NoCuttingSpeed Region
   | -- | a feed for which the leading axis of a frame, the axis with the most pulses, would need a
     -- frequency that the machine does not have. The arguments are the feed asked for, and the
     -- frequency that it would need, in pulses per second. Then come the lowest and the highest
@@ -116,6 +124,31 @@ toReport unit machine err = case err of
               else feedFix "Write its lowest feed" region (roundedTo unit ceiling lowest)
           ],
         hints = perTurn asked
+      }
+  TurnFeedOutOfRange region (Mm lowest) (Mm highest) ->
+    (report Report.Error "E0501" (InSource region) (machineName machine <> " has no such feed"))
+      { message =
+          [ "Its feeds for one turn of the spindle go from "
+              <> Decimal.short 6 lowest
+              <> " to "
+              <> Decimal.short 6 highest
+              <> " mm/rev."
+          ]
+      }
+  TurnFeedUnknown region ->
+    ( report
+        Report.Error
+        "E0520"
+        (InSource region)
+        "the speed of the spindle for this feed is not known"
+    )
+      { message = [machineName machine <> " takes feeds in mm/min, so mm/rev needs the speed."],
+        hints = ["Write the speed before the cut: ‘spindle cw 800 rpm’, or a feed in mm/min."]
+      }
+  NoCuttingSpeed region ->
+    (report Report.Error "E0521" (InSource region) (machineName machine <> " has no cutting speed"))
+      { message = ["Its spindle turns at the same speed until the program changes it."],
+        hints = ["Write the speed of the spindle, as in ‘spindle cw 800 rpm’."]
       }
   FrequencyOutOfRange region asked needed (low, lowFeed) (high, highFeed) ->
     ( report
@@ -487,7 +520,7 @@ warningReport unit machine warning = case warning of
 -- | The hint for a feed that is so low that it may be meant for one turn of the spindle.
 perTurn :: Feed -> [Text]
 perTurn (Feed f) =
-  [ "Feeds are in mm/min. Multiply a feed for one turn of the spindle by its speed in rpm."
+  [ "A feed without a unit is in mm/min. Write mm/rev for a feed for one turn of the spindle."
     | f < 2
   ]
 

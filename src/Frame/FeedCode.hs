@@ -5,6 +5,8 @@
 -- well. The leading axis of a frame is the axis with the most pulses.
 module Frame.FeedCode
   ( codeFor,
+    turnCode,
+    cutCode,
     feedOf,
     frameLength,
     codeValue,
@@ -22,11 +24,19 @@ import Frame.Frame qualified as Frame
 import Geometry.Segment qualified as Segment
 import Machine.Machine (FeedChoice (..), FeedCode, FeedMeasure (..), Machine)
 import Machine.Machine qualified as Machine
+import Part.CutFeed (CutFeed (..))
+import Part.CutFeed qualified as CutFeed
 
 -- | Code of the machine for the feed @v@ in the frame @f@, whose length is @l@; 'NoSuchFeed' if the
 -- feed is outside of the machine's range. The code that the frame already holds is ignored.
 codeFor :: Machine -> Feed -> Frame -> Mm -> FeedChoice
 codeFor machine v f l = Machine.choose machine (codeValue machine v f l)
+
+-- | Code for a feed for one turn of the spindle, on a machine that has such codes.
+turnCode :: Machine -> CutFeed -> Maybe FeedChoice
+turnCode machine v = case v of
+  PerMinute _ -> Nothing
+  PerTurn (Mm d) _ -> Machine.chooseTurn machine d
 
 -- | The feed @v@ in the unit of the machine's codes, for the frame @f@ of length @l@: mm/min along
 -- the path, or pulses per second of the leading axis.
@@ -72,6 +82,14 @@ frameLength machine f = case motion f of
   _ -> let Mm l = plane; Mm h = Frame.height machine (increment f) in Mm (sqrt (l * l + h * h))
   where
     plane = Segment.length (Frame.segment machine 0 f)
+
+-- | Code for the feed @v@ of a cut in the frame @f@, as 'nearestCode' gives it. A feed that is not
+-- known has the code of the lowest feed; "Frame.InstructionCheck" reports it.
+cutCode :: Machine -> CutFeed -> Frame -> FeedCode
+cutCode machine v f = case (turnCode machine v, CutFeed.perMinute v) of
+  (Just (Given code _), _) -> code
+  (_, Just feed) -> nearestCode machine feed f
+  (_, Nothing) -> fst (Machine.slowest machine)
 
 -- | Code for the feed @v@ in the frame @f@. For a feed outside of the machine's range it is the
 -- code of the machine's lowest or highest feed.

@@ -29,7 +29,6 @@ where
 import Base.PulseVector (Pulses2 (..), Pulses3 (..))
 import Base.Quantity (Mm (..), Pulses (..))
 import Base.Region (Region)
-import Data.Maybe (isNothing)
 import Geometry.Carrier (Sense (..))
 import Geometry.Segment (Segment (Straight))
 import Geometry.Segment qualified as Segment
@@ -252,7 +251,7 @@ feedCodeFaults machine n f = case motion f of
   Linear -> unknown
   Circular _ -> unknown
   where
-    unknown = [NoSuchFeedCode n (feedCode f) | isNothing (Machine.valueOf machine (feedCode f))]
+    unknown = [NoSuchFeedCode n (feedCode f) | not (Machine.hasFeedCode machine (feedCode f))]
 
 -- | Motions that the machine does not have, or that contradict the frame's increments or centre.
 -- Only lines and rapid moves turn rotary axes.

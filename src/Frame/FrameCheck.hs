@@ -26,6 +26,7 @@ import Frame.Rounding qualified as Rounding
 import Geometry.Tolerance qualified as Tolerance
 import Machine.Machine (Axis (..), FeedCode (..), FeedMeasure (..), Machine)
 import Machine.Machine qualified as Machine
+import Part.CutFeed qualified as CutFeed
 import Part.Part (Pace (..))
 
 -- | Facts about the machine that are the same for all frames.
@@ -122,8 +123,13 @@ checkFeed context asked f before = case asked of
     -- When codes are feeds along the path, the same code gives the same feed, so nothing new can be
     -- found.
     | isAlongPath context && lastCode before == feedCode f && lastPace before == asked -> before
-    | otherwise ->
-      checkNewFeed context (region, v) f before {lastPace = asked, lastCode = feedCode f}
+    | otherwise -> case (feedCode f, CutFeed.perMinute v) of
+      -- The code of a feed for one turn has this feed.
+      (TurnCode _, _) -> checked
+      (FeedCode _, Nothing) -> checked
+      (FeedCode _, Just feed) -> checkNewFeed context (region, feed) f checked
+  where
+    checked = before {lastPace = asked, lastCode = feedCode f}
 
 -- | Adds the finding in the feed of the frame @f@. @v@ is the feed in the program, and @region@ the
 -- text that asks for it.

@@ -369,7 +369,7 @@ frameOf machine feedMode pace begin ArcStep {target, turnsAbout} = case turnsAbo
       (LowestCode, _) -> f {feedCode = fst (Machine.slowest machine)}
       (BrakingTo v, _) -> f {feedCode = FeedCode.nearestCode machine v f, braking = True}
       (AsProgrammed, Rapid) -> f {feedCode = Machine.rapidCode machine}
-      (AsProgrammed, At (Located _ v)) -> f {feedCode = FeedCode.nearestCode machine v f}
+      (AsProgrammed, At (Located _ v)) -> f {feedCode = FeedCode.cutCode machine v f}
 
 -- Steps of a run ----------------------------------------------------------------------------------
 

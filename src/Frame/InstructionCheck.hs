@@ -24,6 +24,7 @@ import Data.Maybe (listToMaybe, mapMaybe, maybeToList)
 import Frame.ChordError (ChordTolerance)
 import Frame.ChordError qualified as ChordError
 import Frame.Error (Error (..), Warning (..))
+import Frame.FeedCode qualified as FeedCode
 import Frame.Frame (mostFrames)
 import Frame.Instruction (FeedMode (..), Instruction (..))
 import Frame.Rounding (PathPosition)
@@ -36,6 +37,7 @@ import Geometry.Vec (Point)
 import Geometry.Vec qualified as Vec
 import Machine.Machine (Arcs (..), Axis (..), FeedMeasure (..), Machine)
 import Machine.Machine qualified as Machine
+import Part.CutFeed qualified as CutFeed
 import Part.Part (Pace (..))
 import Toolpath.Toolpath (Move (..), heights, pace)
 
@@ -135,19 +137,21 @@ checkFeed ::
   InstructionFindings ->
   InstructionFindings
 checkFeed context feedMode moves before = case (feedMode, asked) of
-  (AsProgrammed, At (Located region (Feed v)))
-    | isAlongPath context && asked /= lastPace before ->
-      case Machine.choose (machine context) v of
-        Machine.NoSuchFeed low high ->
-          before
-            { lastPace = asked,
-              withoutCode =
-                FeedOutOfRange region (Feed v) (Feed low) (Feed high) : withoutCode before
-            }
-        Machine.Given _ _ -> before {lastPace = asked}
+  (AsProgrammed, At (Located region v))
+    | asked /= lastPace before ->
+      before {lastPace = asked, withoutCode = faultOf region v <> withoutCode before}
   _ -> before
   where
     asked = pace (NonEmpty.head moves)
+    faultOf region v = case (FeedCode.turnCode (machine context) v, CutFeed.perMinute v) of
+      (Just (Machine.NoSuchFeed low high), _) -> [TurnFeedOutOfRange region (Mm low) (Mm high)]
+      (Just (Machine.Given _ _), _) -> []
+      (Nothing, Nothing) -> [TurnFeedUnknown region]
+      (Nothing, Just (Feed f))
+        | isAlongPath context,
+          Machine.NoSuchFeed low high <- Machine.choose (machine context) f ->
+          [FeedOutOfRange region (Feed f) (Feed low) (Feed high)]
+        | otherwise -> []
 
 -- | Adds a warning about the first move of the run @moves@ that changes the height, if it is
 -- uncertain whether the machine can move in z. Only the first such run of a program has a warning.

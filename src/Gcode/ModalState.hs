@@ -13,6 +13,7 @@ module Gcode.ModalState
     FeedKind (..),
     MotionMode (..),
     Spindle (..),
+    SpeedMode (..),
     ToolLength (..),
     Coolant (..),
     PathMode (..),
@@ -63,6 +64,11 @@ data MotionMode = RapidMode | LinearMode | ArcMode Sense
 data Spindle = SpindleStopped | SpindleTurning Sense
   deriving stock (Eq, Show)
 
+-- | Meaning of the speed of the spindle: turns per minute (G97), or a constant cutting speed (G96)
+-- with a limit of the turns per minute; Nothing without a limit.
+data SpeedMode = ConstantTurns | ConstantCutting (Maybe Int)
+  deriving stock (Eq, Show)
+
 -- | Length of the tool that the control takes into account: none, or that of an entry of the tool
 -- table. A change of the tool makes the length 'LengthOfOther': that of the tool before.
 data ToolLength = NoLength | LengthOf Int | LengthOfOther
@@ -77,7 +83,8 @@ data Coolant = CoolantOff | Mist | Flood | MistAndFlood
 data PathMode = ExactPath | Blended (Maybe Mm)
   deriving stock (Eq, Show)
 
--- | State of a control. A speed is in turns per minute, a feed in mm per minute or per turn.
+-- | State of a control. A speed is in turns per minute or, at a constant cutting speed, in m per
+-- minute. A feed is in mm per minute or per turn.
 data ModalState = ModalState
   { motionMode :: Modal MotionMode,
     units :: Modal Units,
@@ -95,6 +102,7 @@ data ModalState = ModalState
     toolLength :: Modal ToolLength,
     spindle :: Modal Spindle,
     speed :: Modal Double,
+    speedMode :: Modal SpeedMode,
     coolant :: Modal Coolant,
     pathMode :: Modal PathMode,
     -- | true if the words of X are diameters (G7), false if they are radii (G8)
@@ -125,6 +133,11 @@ initial dialect =
       toolLength = Unset,
       spindle = Unset,
       speed = Unset,
+      speedMode = case dialect of
+        LinuxCnc -> Unset
+        Fanuc -> Unset
+        Grbl -> fixed ConstantTurns
+        Marlin -> fixed ConstantTurns,
       coolant = Unset,
       pathMode = case dialect of
         LinuxCnc -> Unset

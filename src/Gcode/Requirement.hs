@@ -54,9 +54,12 @@ spindleErrors machine heading path
   where
     notTurning (state, block) = case CommandState.spindle state of
       Nothing -> off <$> cutOf block
-      Just (_, Nothing) -> slow <$> cutOf block
-      Just (_, Just n)
+      Just (_, CommandState.NoNumber) -> slow <$> cutOf block
+      Just (_, CommandState.TurnNumber n)
         | n > 0 -> Nothing
+        | otherwise -> slow <$> cutOf block
+      Just (_, CommandState.SurfaceNumbers v _)
+        | v > 0 -> Nothing
         | otherwise -> slow <$> cutOf block
     off region =
       (at region "E0511" "the spindle is off at this cut")

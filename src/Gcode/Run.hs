@@ -124,7 +124,7 @@ runBlock form now b = do
   s <- sorted form b
   when (isEnded now && not (null (gcodeWords b))) (faultAt b 1 BehindEnd)
   before <- modesBefore (dialect form) s (modal now)
-  (changed, changeSteps) <- toolChange s now {modal = before}
+  (changed, changeSteps) <- toolChange form s now {modal = before}
   let running = modesBehind form s changed
   dwelt <- dwellOf form s
   (moved, motionSteps) <- motionOf form s running
@@ -202,10 +202,13 @@ given c s = listToMaybe [number w | w <- others s, letter w == c]
 modesBefore :: Dialect -> Sorted -> ModalState -> Either Fault ModalState
 modesBefore dialect' s m = do
   tool <- traverse whole (given 'T' s)
+  when (960 `elem` gCodes s && isNothing (given 'S' s)) $
+    faultAt (block s) 1 (WordMissing "S" "G96")
   pure
     m
       { feedMode = choose (feedMode m) [(930, InverseTime), (940, PerMinute), (950, PerTurn)],
         speed = maybe (speed m) (SetAt n . decimal) (given 'S' s),
+        speedMode = choose (speedMode m) [(960, ConstantCutting limit), (970, ConstantTurns)],
         selectedTool = maybe (selectedTool m) (SetAt n) tool,
         units = newUnits,
         feed = feedAfter
@@ -224,6 +227,7 @@ modesBefore dialect' s m = do
         | otherwise -> feed m
     n = lineNumber (block s)
     choose = chosen n (gCodes s)
+    limit = round . decimal <$> given 'D' s
     whole k = case isWhole k of
       Just t
         | t >= 0 -> Right t
@@ -242,19 +246,20 @@ chosen n codes before table = case [a | (c, a) <- table, c `elem` codes] of
   [] -> before
 
 -- | Changes the tool if the line has M6. The spindle stops, and the control keeps the length of the
--- tool before. Many machines go to a place of their own for the change.
-toolChange :: Sorted -> Running -> Either Fault (Running, [Step])
-toolChange s now
+-- tool before. Many machines go to a place of their own for the change, but no nearer to the work.
+toolChange :: ProgramForm -> Sorted -> Running -> Either Fault (Running, [Step])
+toolChange form s now
   | 60 `notElem` mCodes s = Right (now, [])
   | otherwise =
     Right
-      ( now {modal = changed, place = ToolPlace Anywhere Anywhere height},
+      ( now {modal = changed, place = ToolPlace across Anywhere (kept (placeZ (place now)))},
         [Step n changed (Changes (place now) (valueOf (selectedTool m)))]
       )
   where
     n = lineNumber (block s)
     m = modal now
-    height = case placeZ (place now) of
+    across = if isJust (lathe form) then kept (placeX (place now)) else Anywhere
+    kept c = case c of
       Retracted -> Retracted
       _ -> Anywhere
     changed =
@@ -548,5 +553,6 @@ unusedWords s now = case mapMaybe unused (others s) of
       | letter w `elem` ("IJKR" :: String) = if isArc (modal now) then Nothing else Just w
       | letter w == 'H' = if 430 `elem` gs then Nothing else Just w
       | letter w == 'P' = if any (`elem` gs) [40, 640] then Nothing else Just w
+      | letter w == 'D' = if 960 `elem` gs then Nothing else Just w
       | letter w == 'Q' = if 640 `elem` gs then Nothing else Just w
       | otherwise = Just w

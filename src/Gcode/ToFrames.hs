@@ -26,14 +26,14 @@ import Data.Maybe (fromMaybe, isJust, isNothing)
 import Data.Text qualified as Text
 import Frame.Command (Pending (..))
 import Frame.Command qualified as Command
-import Frame.CommandState (CommandState (..))
+import Frame.CommandState (CommandState (..), SpindleNumbers (..))
 import Frame.CommandState qualified as CommandState
 import Frame.Frame (Frame (..), FrameMotion (..))
 import Frame.Frame qualified as Frame
 import Gcode.ModalState
 import Gcode.Run
 import Geometry.Carrier qualified as Carrier
-import Machine.Machine (Axis (..), Content (..), FeedCode (..), Machine)
+import Machine.Machine (Axis (..), Content (..), FeedCode (..), Machine, TurnFeeds (..))
 import Machine.Machine qualified as Machine
 import Part.Part (Sense (..))
 import Part.Part qualified as Part
@@ -244,7 +244,7 @@ stateOf m =
   CommandState
     { tool = valueOf (toolInSpindle m),
       CommandState.spindle = case valueOf (Gcode.ModalState.spindle m) of
-        Just (SpindleTurning sense) -> Just (senseOf sense, round <$> valueOf (speed m))
+        Just (SpindleTurning sense) -> Just (senseOf sense, speedOf m)
         _ -> Nothing,
       coolantRuns = valueOf (coolant m) `notElem` [Nothing, Just CoolantOff]
     }
@@ -252,6 +252,13 @@ stateOf m =
     senseOf sense = case sense of
       Carrier.Clockwise -> Clockwise
       Carrier.CounterClockwise -> CounterClockwise
+
+-- | Speed of the spindle in whole numbers.
+speedOf :: ModalState -> SpindleNumbers
+speedOf m = case (valueOf (speed m), valueOf (speedMode m)) of
+  (Nothing, _) -> NoNumber
+  (Just v, Just (ConstantCutting limit)) -> SurfaceNumbers (round v) limit
+  (Just v, _) -> TurnNumber (round v)
 
 -- | Adds a frame of commands.
 addCommands :: Int -> [(Machine.CommandName, Int)] -> Converting -> Converting
@@ -310,13 +317,21 @@ frameOf machine step travel begin target = case mode travel of
     | otherwise -> (plain {motion = Linear, feedCode}, 0)
   where
     plain = (Frame.commandFrame []) {increment = target - begin}
-    feedCode = FeedCode (maybe 0 inSteps (valueOf (Gcode.ModalState.feed (state step))))
-    inSteps v = round (v / Machine.directStep (Machine.feeds machine))
+    feedCode = feedCodeOf machine (state step)
     centreFrom (i, j) =
       let Pulses3 x y _ = begin
           (cx, dx) = nearest machine X i
           (cy, dy) = nearest machine Y j
        in (Pulses2 (cx - x) (cy - y), sqrt (dx * dx + dy * dy))
+
+-- | Feed code of the state.
+feedCodeOf :: Machine -> ModalState -> FeedCode
+feedCodeOf machine m = case (valueOf (feedMode m), Machine.turnFeeds (Machine.feeds machine)) of
+  (Just PerTurn, Just f) -> TurnCode (maybe 0 (round . (* 10 ^ turnDecimals f)) given')
+  _ -> FeedCode (maybe 0 inSteps given')
+  where
+    given' = valueOf (Gcode.ModalState.feed m)
+    inSteps v = round (v / Machine.directStep (Machine.feeds machine))
 
 -- | Plane of the part's axes x and y, by the letters of the control.
 planeOf :: Machine -> Plane

@@ -13,17 +13,8 @@ where
 
 import Base.Decimal qualified as Decimal
 import Base.PulseVector (Pulses2 (..), Pulses3 (..))
-import Base.Quantity
-  ( Feed (..),
-    LengthUnit (..),
-    Mm (..),
-    Pulses (..),
-    Seconds (..),
-    minus,
-    travelTime,
-  )
+import Base.Quantity (LengthUnit (..), Mm (..), Pulses (..), Seconds (..))
 import Data.Char (isAscii, isPrint)
-import Data.List (foldl')
 import Data.Map.Strict qualified as Map
 import Data.Maybe (fromMaybe, isJust, listToMaybe, mapMaybe, maybeToList)
 import Data.Set qualified as Set
@@ -33,11 +24,11 @@ import Frame.Command qualified as Command
 import Frame.Frame (Frame (..), FrameMotion (..), FrameProgram (..), PlannedFrame (..), passNumber)
 import Frame.Frame qualified as Frame
 import Gcode.Dialect qualified as Dialect
+import Gcode.FileTime qualified as FileTime
 import Gcode.Heading (FileHeading (..))
 import Gcode.Heading qualified as Heading
 import Gcode.ToolTip qualified as ToolTip
 import Geometry.Carrier qualified as Carrier
-import Geometry.Segment qualified as Segment
 import Machine.Machine
   ( Axis (..),
     CommandName,
@@ -48,8 +39,9 @@ import Machine.Machine
     FeedCode (..),
     Machine,
     MachineName (..),
-    NumberForm (decimals),
+    NumberForm (decimals, digits),
     ProgramForm (..),
+    TurnFeeds (..),
     Word' (address),
   )
 import Machine.Machine qualified as Machine
@@ -66,6 +58,8 @@ data Writing = Writing
     isAway :: Bool,
     -- | feed code that is in force; Nothing if the next feed has to be written
     feedWritten :: Maybe FeedCode,
+    -- | true if feeds are for one turn of the spindle
+    isPerTurn :: Bool,
     hasCoolant :: Bool,
     -- | true from a change of the tool on, which switches the coolant off, until it is on again
     isCoolantPaused :: Bool,
@@ -167,6 +161,7 @@ fileLines context part =
         { at = begins part,
           isAway = True,
           feedWritten = Nothing,
+          isPerTurn = False,
           hasCoolant = isCooled part,
           isCoolantPaused = isCooled part,
           turns = False,
@@ -193,7 +188,7 @@ headTexts context@Context {machine, form, heading} part =
   [("part", partName heading <> (if title == "" then "" else ", " <> title))]
     <> [("machine", name)]
     <> [("remark", remark form) | remark form /= ""]
-    <> [("time", timeText (timeOf machine (begins part) (map frame (framesOf part))))]
+    <> [("time", FileTime.timeText (FileTime.timeOf machine (begins part) (map frame (framesOf part))))]
     <> [ ("tool " <> Decimal.whole n, text)
          | (n, text) <- toolList heading,
            ProgramForm.changesTools (dialect form) || Just n == toolOf part
@@ -246,30 +241,6 @@ numbered form body = case numberStep form of
   Just step -> zipWith number [step, 2 * step ..] body
   where
     number n text = "N" <> Decimal.whole n <> " " <> text
-
--- | Time of frames at their feeds, without dwells and accelerations. @begin@ is the position before
--- the first frame, in pulses.
-timeOf :: Machine -> Pulses3 -> [Frame] -> Seconds
-timeOf machine begin frames = snd (foldl' add (begin, Seconds 0) frames)
-  where
-    add (at, Seconds t) f =
-      let end = at + increment f
-          Seconds more = if Frame.isMoving f then frameTime at end f else Seconds 0
-       in at `seq` (end, Seconds (t + more))
-    frameTime at end f =
-      let Mm flat = Segment.length (Frame.segment machine at f)
-          Mm rise = minus (Frame.height machine end) (Frame.height machine at)
-          code = if motion f == Rapid then Machine.rapidCode machine else feedCode f
-       in travelTime
-            (Mm (sqrt (flat * flat + rise * rise)))
-            (Feed (fromMaybe 0 (Machine.valueOf machine code)))
-
--- | Time in minutes and seconds, rounded up to whole seconds.
-timeText :: Seconds -> Text
-timeText (Seconds t) =
-  Decimal.whole (whole `div` 60) <> " min " <> Decimal.whole (whole `mod` 60) <> " s"
-  where
-    whole = ceiling t :: Int
 
 -- | A comment with a fixed word before the text. Controls act on some characters and on some first
 -- words of comments, so only harmless characters are kept.
@@ -398,6 +369,8 @@ actionsOf machine f = go (commands f) candidates
       [ (toolChange table, ToTool . argumentOf (toolChange table)),
         (spindleClockwise table, Turning),
         (spindleCounterClockwise table, Turning),
+        (surfaceClockwise table, Turning),
+        (surfaceCounterClockwise table, Turning),
         (spindleOff table, const StopSpindle),
         (coolantOn table, const (CoolantSwitch True)),
         (coolantOff table, const (CoolantSwitch False))
@@ -410,8 +383,11 @@ actionsOf machine f = go (commands f) candidates
           make found : go (filter (`notElem` found) left) more
         | otherwise -> go left more
     numberIn w left = case lookup (commandName w) left of
-      Just n | value w == Fixed n || value w == Argument -> Just (commandName w, n)
+      Just n | isNumberOf n (value w) -> Just (commandName w, n)
       _ -> Nothing
+    isNumberOf n v = case v of
+      Fixed k -> k == n
+      _ -> v `elem` [Argument, InMetres, SpeedLimit]
     argumentOf ws found = fromMaybe 0 (listToMaybe (mapMaybe (argumentIn found) ws))
     argumentIn found w
       | value w == Argument = lookup (commandName w) found
@@ -468,7 +444,8 @@ motionLines context@Context {form} now f
   | not (Frame.isMoving f) = (now, [])
   -- The tool comes from above, so it comes down to the end of the move.
   | isAway now && isRise f = (moved, descentLines context now {at = end})
-  | otherwise = (moved, (if isAway now then descentLines context now else []) <> [own])
+  | otherwise =
+    (moved, (if isAway now then descentLines context now else []) <> modes <> [own])
   where
     end = at now + increment f
     own =
@@ -477,13 +454,18 @@ motionLines context@Context {form} now f
         _ -> feedText
     feedText
       | written == Just (feedCode f) = ""
-      | otherwise = let FeedCode n = feedCode f in " F" <> feedNumber context n
+      | otherwise = " F" <> feedNumber context (feedCode f)
+    modes = [if perTurn then "G95" else "G94" | motion f /= Rapid, perTurn /= isPerTurn now]
+    perTurn = case feedCode f of
+      TurnCode _ -> True
+      FeedCode _ -> False
     written = if isAway now then Nothing else feedWritten now
     moved =
       now
         { at = end,
           isAway = False,
           isCoolantPaused = False,
+          isPerTurn = if motion f == Rapid then isPerTurn now else perTurn,
           feedWritten = case motion f of
             Rapid -> if dialect form == Marlin then Nothing else written
             _ -> Just (feedCode f)
@@ -524,17 +506,19 @@ motionText context@Context {machine} end f = Text.unwords (motionWord : axisWord
       _ -> []
 
 -- | Number of a feed word. Some controls want a point in it.
-feedNumber :: Context -> Int -> Text
-feedNumber Context {machine, form} n = number <> (if needsPoint then "." else "")
+feedNumber :: Context -> FeedCode -> Text
+feedNumber Context {machine, form} code = case code of
+  FeedCode n -> decimalText places n <> (if dialect form == Fanuc && places == 0 then "." else "")
+  TurnCode n ->
+    let d = maybe 0 turnDecimals (Machine.turnFeeds (Machine.feeds machine))
+     in Decimal.short d (fromIntegral n / 10 ^ d)
   where
     places = maybe 0 (decimals . Machine.form) (Machine.wordFor machine FeedWord)
-    number = decimalText places n
-    needsPoint = dialect form == Fanuc && places == 0
 
 -- | Feed word of a rapid move, on controls that need one.
 rapidFeed :: Context -> Text
 rapidFeed context@Context {machine, form} = case dialect form of
-  Marlin -> let FeedCode n = Machine.rapidCode machine in " F" <> feedNumber context n
+  Marlin -> " F" <> feedNumber context (Machine.rapidCode machine)
   _ -> ""
 
 component :: Axis -> Pulses3 -> Pulses
@@ -556,7 +540,10 @@ axisText Context {machine, form} position axis
 scaledText :: Machine -> Content -> Pulses -> Text
 scaledText machine content' (Pulses n) = case Machine.wordFor machine content' of
   Nothing -> ""
-  Just word -> address word <> decimalText (decimals (Machine.form word)) n
+  Just word
+    -- The address is the whole command.
+    | digits (Machine.form word) == 0 -> address word
+    | otherwise -> address word <> decimalText (decimals (Machine.form word)) n
 
 -- | Number with a count of decimals, from its value in units of the last decimal.
 decimalText :: Int -> Int -> Text

@@ -80,7 +80,9 @@ simpleEvents =
     "auxiliary",
     "stop",
     "optional-stop",
-    "dwell"
+    "dwell",
+    "surface-clockwise",
+    "surface-counterclockwise"
   ]
 
 -- | Reads the section @commands@.
@@ -98,7 +100,7 @@ commands s = do
 -- | The command words of all events without their regions.
 commandWords :: Events -> CommandWords
 commandWords events = case map (map value) (simple events) of
-  [clockwise, counterClockwise, rest, on', off', tool', aux, stop, optionalStop', dwell'] ->
+  [clockwise, counterClockwise, rest, on', off', tool', aux, stop, optional', dwell', cw, ccw] ->
     CommandWords
       { spindleClockwise = clockwise,
         spindleCounterClockwise = counterClockwise,
@@ -108,8 +110,10 @@ commandWords events = case map (map value) (simple events) of
         toolChange = tool',
         auxiliary = aux,
         programStop = stop,
-        optionalStop = optionalStop',
+        optionalStop = optional',
         dwell = dwell',
+        surfaceClockwise = cw,
+        surfaceCounterClockwise = ccw,
         compensation = unlocated <$> compensations events,
         finish = map (fmap value) (endFrames events)
       }
@@ -172,7 +176,7 @@ wordFrom s = case (arguments s, block s) of
   where
     forms =
       ["set M 8", "set S argument", "set D diameter", "set P seconds", "set P milliseconds"]
-        <> ["set S steps { 1 = 63 … }"]
+        <> ["set S steps { 1 = 63 … }", "set S cutting-speed", "set D limit"]
     stepSection ss =
       DescriptionSection {sectionName = "the steps", sectionRegion = extent s, entries = ss}
     located n v = Located (extent s) (CommandWord (CommandName n) v)
@@ -184,6 +188,8 @@ wordFrom s = case (arguments s, block s) of
       [name, Located _ (Word "argument")] -> pure . (`located` Argument) <$> nameFrom name
       [name, Located _ (Word "diameter")] -> pure . (`located` Diameter) <$> nameFrom name
       [name, Located _ (Word "seconds")] -> pure . (`located` InSeconds) <$> nameFrom name
+      [name, Located _ (Word "cutting-speed")] -> pure . (`located` InMetres) <$> nameFrom name
+      [name, Located _ (Word "limit")] -> pure . (`located` SpeedLimit) <$> nameFrom name
       [name, Located _ (Word "milliseconds")] ->
         pure . (`located` InMilliseconds) <$> nameFrom name
       [name, a] -> do
@@ -254,6 +260,8 @@ givesZero v = case v of
   Diameter -> False
   InSeconds -> False
   InMilliseconds -> False
+  InMetres -> False
+  SpeedLimit -> False
 
 -- | Reports numbers above @most@, the largest number that the command's word or bits can hold. It
 -- also reports whole numbers in a word with decimals.
@@ -265,6 +273,8 @@ sizeFaults machine r name most v = case v of
   Diameter -> []
   InSeconds -> []
   InMilliseconds -> []
+  InMetres -> decimalsFault
+  SpeedLimit -> decimalsFault
   where
     tooLarge ks = [BadCommand r (NumberTooLarge k most) | k <- ks, k > most]
     decimalsFault =
@@ -284,6 +294,9 @@ eventFaults r event v = case v of
   Diameter -> onlyFor "diameter" ["compensation"]
   InSeconds -> onlyFor "seconds" ["dwell"]
   InMilliseconds -> onlyFor "milliseconds" ["dwell"]
+  InMetres -> onlyFor "cutting-speed" surfaceEvents
+  SpeedLimit -> onlyFor "limit" surfaceEvents
   where
+    surfaceEvents = ["surface-clockwise", "surface-counterclockwise"]
     spindleEvents = ["spindle-clockwise", "spindle-counterclockwise"]
     onlyFor kind events = [BadCommand r (NoSuchValue kind event) | event `notElem` events]

@@ -26,6 +26,9 @@ data CommandWords = CommandWords
     programStop :: [CommandWord],
     optionalStop :: [CommandWord],
     dwell :: [CommandWord],
+    -- | the spindle at a constant cutting speed
+    surfaceClockwise :: [CommandWord],
+    surfaceCounterClockwise :: [CommandWord],
     compensation :: Maybe CompensationCommands,
     -- | numbers in the last frames of a program, one list for each frame; these frames contain no
     -- move
@@ -55,6 +58,10 @@ data CommandValue
     InSeconds
   | -- | time of the dwell, in milliseconds
     InMilliseconds
+  | -- | constant cutting speed, in m\/min
+    InMetres
+  | -- | limit of the speed of the spindle at a constant cutting speed, in revolutions per minute
+    SpeedLimit
   deriving stock (Eq, Show)
 
 -- | Commands for cutter compensation: left (G41), right (G42) and off (G40).
@@ -70,4 +77,4 @@ data CompensationCommands = CompensationCommands
 
 -- | The numbers of a machine whose tape cannot give any command.
 noCommandWords :: CommandWords
-noCommandWords = CommandWords [] [] [] [] [] [] [] [] [] [] Nothing []
+noCommandWords = CommandWords [] [] [] [] [] [] [] [] [] [] [] [] Nothing []

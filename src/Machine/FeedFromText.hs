@@ -28,7 +28,9 @@ import Machine.Machine
     Feeds (..),
     RapidCode (..),
     Rule (..),
+    TurnFeeds (..),
   )
+import Machine.Machine qualified as Machine
 import Machine.Section
 import Machine.Syntax
 
@@ -117,7 +119,8 @@ feedsIn section =
     <*> pure 1
     <*> required "rule" "rule nearest" ruleFrom section
     <*> required "rapid" "rapid highest" rapidFrom section
-    <* allowKeys ["measure", "table", "direct", "rule", "rapid"] [] section
+    <*> optional "per-turn" Nothing (fmap Just . turnFeedsFrom) section
+    <* allowKeys ["measure", "table", "direct", "rule", "rapid", "per-turn"] [] section
   where
     measureFrom = choice [("mm/min", AlongPath), ("Hz", LeadingAxis)]
     ruleFrom = choice [("not-above", NotAbove), ("nearest", Nearest)]
@@ -126,6 +129,17 @@ feedsIn section =
       [Located _ (Word "highest")] -> Just (pure Highest)
       [Located _ (Word "code"), n] -> fmap (ByCode . FeedCode) <$> wholeIn "the code" 0 999999999 n
       _ -> Nothing
+
+-- | Reads the feeds for one turn of the spindle: the step, and the range of the counts of steps.
+turnFeedsFrom :: Statement -> Result w Error TurnFeeds
+turnFeedsFrom = withArguments ["per-turn 0.001 mm/rev 1..20000"] form
+  where
+    form args = case args of
+      [Located _ (Number _ step), Located _ (Word "mm/rev"), Located r (Range a b)]
+        | a < 1 || b < a -> Just (Result.failed (BadTable r (BadRange a b)))
+        | [d] <- filter (isStep step) [0 .. 6] -> Just (pure (TurnFeeds d a b))
+      _ -> Nothing
+    isStep step d = abs (step * 10 ^ (d :: Int) - 1) < 1.0e-9
 
 -- | Reads the feed codes: either a table, or a range of codes that are their own values.
 codesFrom :: DescriptionSection -> Result w Error FeedCodes
@@ -181,7 +195,7 @@ checkFeeds (Located feedsRegion written) (Located brakingRegion b) wordCapacity 
       Listed t -> Map.member (FeedCode n) t
       Direct a z -> a <= n && n <= z
     highest = case codes f of
-      Listed t -> maybe 0 (\(FeedCode n, _) -> n) (Map.lookupMax t)
+      Listed t -> maybe 0 (Machine.codeNumber . fst) (Map.lookupMax t)
       Direct _ z -> z
     capacityFaults =
       [ BadTable tooLarge (CodeTooLarge highest most)

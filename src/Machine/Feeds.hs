@@ -7,6 +7,7 @@ module Machine.Feeds
     Rule (..),
     RapidCode (..),
     FeedCode (..),
+    TurnFeeds (..),
     FeedChoice (..),
 
     -- * Braking
@@ -19,9 +20,21 @@ import Base.Quantity (Feed (..))
 import Data.Map.Strict (Map)
 
 -- | Number in the feed word of a frame. It means a feed.
-newtype FeedCode = FeedCode Int
-  deriving newtype (Eq, Ord)
-  deriving stock (Show)
+data FeedCode
+  = FeedCode Int
+  | -- | feed for one turn of the spindle, in steps of 'TurnFeeds'
+    TurnCode Int
+  deriving stock (Eq, Ord, Show)
+
+-- | Feeds for one turn of the spindle. The code of a feed is its count of steps of 10^(-d) mm, where
+-- @d@ is 'turnDecimals'.
+data TurnFeeds = TurnFeeds
+  { turnDecimals :: Int,
+    -- | the lowest and the highest code
+    lowestTurn :: Int,
+    highestTurn :: Int
+  }
+  deriving stock (Eq, Show)
 
 -- | Feed codes of a machine with their values, and the rules by which a code is chosen.
 data Feeds = Feeds
@@ -31,7 +44,9 @@ data Feeds = Feeds
     -- own value
     directStep :: Double,
     rule :: Rule,
-    rapidFeed :: RapidCode
+    rapidFeed :: RapidCode,
+    -- | Nothing for a machine whose feeds are per minute only
+    turnFeeds :: Maybe TurnFeeds
   }
   deriving stock (Eq, Show)
 

@@ -61,8 +61,12 @@ module Machine.Machine
     Rule (..),
     RapidCode (..),
     FeedCode (..),
+    TurnFeeds (..),
     FeedChoice (..),
     choose,
+    chooseTurn,
+    codeNumber,
+    hasFeedCode,
     valueOf,
     rapidCode,
     slowest,
@@ -99,7 +103,7 @@ import Data.List (foldl')
 import Data.List.NonEmpty (NonEmpty (..))
 import Data.List.NonEmpty qualified as NonEmpty
 import Data.Map.Strict qualified as Map
-import Data.Maybe (isNothing)
+import Data.Maybe (isJust, isNothing)
 import Data.Text (Text)
 import Machine.Axis
   ( Arcs (..),
@@ -128,6 +132,7 @@ import Machine.Feeds
     Feeds (..),
     RapidCode (..),
     Rule (..),
+    TurnFeeds (..),
   )
 import Machine.FrameLayout
   ( AxisMeasure (..),
@@ -384,17 +389,47 @@ choose machine wanted
       [] -> (FeedCode 0, 0)
       e : es -> foldl (\best x -> if key x < key best then x else best) e es
 
+-- | Chooses the code for a feed of @wanted@ mm for one turn of the spindle. Nothing on a machine
+-- without such feeds. The values of 'NoSuchFeed' are in mm for one turn.
+chooseTurn :: Machine -> Double -> Maybe FeedChoice
+chooseTurn machine wanted = chosen <$> turnFeeds (feeds machine)
+  where
+    chosen TurnFeeds {turnDecimals, lowestTurn, highestTurn}
+      | n < lowestTurn || n > highestTurn = NoSuchFeed (valueAt lowestTurn) (valueAt highestTurn)
+      | otherwise = Given (TurnCode n) (valueAt n)
+      where
+        scale = 10 ^ turnDecimals :: Double
+        n = round (wanted * scale)
+        valueAt k = fromIntegral k / scale
+
+-- | Number of a feed code.
+codeNumber :: FeedCode -> Int
+codeNumber code' = case code' of
+  FeedCode n -> n
+  TurnCode n -> n
+
+-- | True if the machine has a feed code.
+hasFeedCode :: Machine -> FeedCode -> Bool
+hasFeedCode machine code' = case code' of
+  FeedCode _ -> isJust (valueOf machine code')
+  TurnCode n -> case turnFeeds (feeds machine) of
+    Just f -> lowestTurn f <= n && n <= highestTurn f
+    Nothing -> False
+
 -- | Largest difference from the feed @v@ at which another feed counts as equal: 1e-9 of @v@, but
 -- at least 1e-9. Both are in the unit of the machine's 'FeedMeasure'.
 feedTolerance :: Double -> Double
 feedTolerance v = 1e-9 * max 1 (abs v)
 
 -- | Feed that a code means, in the unit of the machine's 'FeedMeasure'; 'Nothing' for a code that
--- the machine lacks.
+-- the machine lacks, and for one that means a feed for a turn of the spindle.
 valueOf :: Machine -> FeedCode -> Maybe Double
-valueOf machine c@(FeedCode n) = case codes (feeds machine) of
-  Listed table -> Map.lookup c table
-  Direct a b -> if a <= n && n <= b then Just (fromIntegral n * directStep (feeds machine)) else Nothing
+valueOf machine c = case (codes (feeds machine), c) of
+  (_, TurnCode _) -> Nothing
+  (Listed table, FeedCode _) -> Map.lookup c table
+  (Direct a b, FeedCode n)
+    | a <= n && n <= b -> Just (fromIntegral n * directStep (feeds machine))
+    | otherwise -> Nothing
 
 -- | Lowest and highest feed that the machine's codes can mean, in the unit of its 'FeedMeasure';
 -- both 0 for an empty table.

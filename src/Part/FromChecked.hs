@@ -20,11 +20,13 @@ import Data.List (foldl')
 import Data.List.NonEmpty (NonEmpty (..))
 import Data.List.NonEmpty qualified as NonEmpty
 import Data.Map.Strict qualified as Map
+import Data.Maybe (fromMaybe)
 import Data.Text (Text)
 import Geometry.Transformation (Transformation)
 import Part.Assertion qualified as Assertion
 import Part.ContourElement qualified as ContourElement
 import Part.Curve (Fitting, PartCurve (..))
+import Part.CutFeed (SpindleRate (..))
 import Part.Error (Error (..), ValueFact (..))
 import Part.Evaluation (Eval)
 import Part.Evaluation qualified as Evaluation
@@ -181,8 +183,14 @@ step state (Located at s) = case s of
   Checked.Spindle Checked.SpindleStop -> command SpindleOff
   Checked.Spindle Checked.SpindleByHand -> command SpindleByHand
   Checked.Spindle (Checked.Spinning sense speed) ->
-    keep (traverse (positive env Parameter.SpindleSpeed id) speed) $ \speed' ->
-      (command (SpindleOn sense speed')) {context = now {modalSense = sense}}
+    keep (traverse (positive env Parameter.SpindleSpeed TurnsPerMinute) speed) $ \speed' ->
+      (command (SpindleOn sense (fromMaybe NoRate speed'))) {context = now {modalSense = sense}}
+  Checked.Spindle (Checked.CuttingAt sense speed limit) ->
+    keep
+      ( CuttingSpeed <$> positive env Parameter.CuttingSpeed id speed
+          <*> positive env Parameter.SpindleSpeed id limit
+      )
+      (\rate -> (command (SpindleOn sense rate)) {context = now {modalSense = sense}})
   Checked.Coolant switch -> command (CoolantTo switch)
   Checked.Auxiliary e ->
     keep (whole env Parameter.AuxiliaryCommand (1, 99) e) (command . Auxiliary)

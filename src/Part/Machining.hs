@@ -16,7 +16,7 @@ module Part.Machining
 where
 
 import Base.Crash (bug)
-import Base.Quantity (Feed, Mm (..), Rad (..), over, times)
+import Base.Quantity (Mm (..), Rad (..), over, times)
 import Base.Region (Located (..), Region (..))
 import Base.Region qualified as Region
 import Checked.Syntax (Expr)
@@ -31,6 +31,7 @@ import Geometry.Tolerance qualified as Tolerance
 import Part.ContourElement qualified as ContourElement
 import Part.ContourError (ContourFault (OpenBegins))
 import Part.CurveError (CurveMistake (SteepBevel))
+import Part.CutFeed (CutFeed)
 import Part.Error (CutterStatement (..), Error (..), ValueFact (..))
 import Part.Evaluation (Eval)
 import Part.Evaluation qualified as Evaluation
@@ -50,7 +51,7 @@ data Context = Context
   { environment :: Environment,
     cutter :: Maybe Cutter,
     chordError :: Maybe (Located Accuracy),
-    modalFeed :: Maybe (Located Feed),
+    modalFeed :: Maybe (Located CutFeed),
     clearanceHeight :: Maybe Mm,
     modalSense :: Sense
   }
@@ -83,7 +84,7 @@ data Passes = Passes
     -- | the stops of the retract; 'Nothing' if a mistake in them is reported
     retractStops :: Maybe [Stop],
     heights :: [Mm],
-    plungeFeed :: Maybe (Located Feed),
+    plungeFeed :: Maybe (Located CutFeed),
     -- | the lead-in and the lead-out: the form, and the length of the line or the radius of the arc
     leads :: (Maybe (LeadForm, Mm), Maybe (LeadForm, Mm)),
     -- | the allowance of each pass

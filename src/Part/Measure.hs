@@ -12,9 +12,10 @@ where
 
 import Base.Quantity (Feed (..), Mm (..), Seconds (..))
 import Base.Region (Located (..))
-import Checked.Syntax (Expr)
+import Checked.Syntax (CutFeedExpr (..), Expr)
 import Control.Monad (when)
 import Geometry.Tolerance qualified as Tolerance
+import Part.CutFeed (CutFeed (..), SpindleRate (..))
 import Part.Error (ValueFact (..))
 import Part.Evaluation (Eval)
 import Part.Evaluation qualified as Evaluation
@@ -47,9 +48,12 @@ notNegative env parameter e = do
   Mm x <$ Value.within (region e) x
 
 -- | Evaluates a feed, which must be above 0 and within the limit of 'positive'. The result keeps
--- the region of the expression.
-feedOf :: Environment -> Expr -> Eval (Located Feed)
-feedOf env e = Located (region e) <$> positive env Parameter.Feed Feed e
+-- the region of the feed. How fast the spindle turns is not known here.
+feedOf :: Environment -> CutFeedExpr -> Eval (Located CutFeed)
+feedOf env f = case f of
+  ForMinute e -> Located (region e) <$> positive env Parameter.Feed (PerMinute . Feed) e
+  ForTurn at e ->
+    Located at <$> positive env Parameter.TurnFeed (\x -> PerTurn (Mm x) NoRate) e
 
 -- | Evaluates the time of a dwell in seconds, which must be above 0 and at most one hour.
 secondsOf :: Environment -> Expr -> Eval Seconds

@@ -24,7 +24,10 @@ import Data.Text (Text)
 -- | A quantity that must not be negative. Most of these quantities must not be 0, either.
 data LimitedQuantity
   = Feed
+  | -- | the feed for one turn of the spindle
+    TurnFeed
   | SpindleSpeed
+  | CuttingSpeed
   | ScalingFactor
   | ClearanceHeight
   | Tolerance
@@ -59,7 +62,9 @@ data LimitedQuantity
 name :: LimitedQuantity -> Text
 name parameter = case parameter of
   Feed -> "the feed"
+  TurnFeed -> "the feed"
   SpindleSpeed -> "the speed of the spindle"
+  CuttingSpeed -> "the cutting speed"
   ScalingFactor -> "the factor of a scaling"
   ClearanceHeight -> "the clearance height"
   Tolerance -> "the tolerance"
@@ -85,12 +90,14 @@ name parameter = case parameter of
   DwellTime -> "a dwell"
 
 -- | The text of a quantity, in which lengths and feeds have the given unit. @x@ is in mm\/min for a
--- feed, in turns per minute for a spindle speed, in seconds for a time, and in mm for a length. A factor has
--- no unit.
+-- feed, in mm for a feed for one turn, in turns per minute for a spindle speed, in mm\/min for a
+-- cutting speed, in seconds for a time, and in mm for a length. A factor has no unit.
 written :: LengthUnit -> LimitedQuantity -> Double -> Text
 written unit parameter x = case parameter of
   Feed -> Decimal.feedIn unit 4 (Quantity.Feed x)
+  TurnFeed -> Decimal.inUnit unit (Mm x) <> "/rev"
   SpindleSpeed -> Decimal.short 4 x <> " rpm"
+  CuttingSpeed -> Decimal.short 4 (x / 1000) <> " m/min"
   ScalingFactor -> Decimal.short 6 x
   DwellTime -> Decimal.short 6 x <> " s"
   _ -> Decimal.inUnit unit (Mm x)

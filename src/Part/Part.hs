@@ -40,7 +40,7 @@ module Part.Part
 where
 
 import Base.Name (Name)
-import Base.Quantity (Feed, LengthUnit, Mm (..), Seconds)
+import Base.Quantity (LengthUnit, Mm (..), Seconds)
 import Base.Region (Located, Region)
 import Checked.Syntax
   ( Corners (..),
@@ -63,6 +63,7 @@ import Geometry.Segment (Segment)
 import Geometry.Segment qualified as Segment
 import Geometry.Vec (Point)
 import Part.Curve (Fitting, PartCurve)
+import Part.CutFeed (CutFeed, SpindleRate)
 import Part.Link (Link)
 
 -- | An evaluated program.
@@ -142,7 +143,7 @@ data Element = Element
 -- | The effect of the modifiers of one element: feed, slow-down and allowance.
 data Finish = Finish
   { -- | the feed along the element; without it, the feed of the machining statement applies
-    ownFeed :: Maybe (Located Feed),
+    ownFeed :: Maybe (Located CutFeed),
     -- | true if the cutter slows down at the element's end
     slow :: Bool,
     -- | the material to leave on the element, in addition to the allowance of the pass
@@ -211,7 +212,7 @@ data Milling = Milling
     -- | the diameter of the wheel that swivels the blade; absent for other tools
     gear :: Maybe Mm,
     tolerance :: Accuracy,
-    feed :: Located Feed,
+    feed :: Located CutFeed,
     approach :: [Stop],
     retract :: [Stop],
     -- | the heights of the passes, from the highest to the lowest. The list is empty if the
@@ -220,7 +221,7 @@ data Milling = Milling
     -- | the height at which rapid moves pass over everything
     clearance :: Maybe Mm,
     -- | the feed of moves down into the material
-    plunge :: Maybe (Located Feed),
+    plunge :: Maybe (Located CutFeed),
     -- | the form of the lead-in, and the length of its line or the radius of its arc
     leadIn :: Maybe (LeadForm, Mm),
     leadOut :: Maybe (LeadForm, Mm),
@@ -313,14 +314,14 @@ data Drilling = Drilling
     -- | the largest depth to drill before the drill is retracted; if it is absent, each hole is
     -- drilled in one move
     peckDepth :: Maybe Mm,
-    drillFeed :: Located Feed
+    drillFeed :: Located CutFeed
   }
   deriving stock (Eq, Show)
 
 -- | A command to the machine: an auxiliary function.
 data Command
-  = -- | the sense of rotation, and the speed in turns per minute if the program gives one
-    SpindleOn Sense (Maybe Double)
+  = -- | the sense of rotation, and the speed
+    SpindleOn Sense SpindleRate
   | SpindleOff
   | CoolantTo Switch
   | -- | the auxiliary function that has this number on the machine
@@ -373,5 +374,5 @@ data Stop = Stop {place :: Located Point, level :: Maybe Mm, pace :: Pace}
 data Pace
   = Rapid
   | -- | the feed, with the region of the program that sets it
-    At (Located Feed)
+    At (Located CutFeed)
   deriving stock (Eq, Show)

@@ -187,6 +187,7 @@ machining =
         ("off", "Stops the spindle, or switches the coolant off."),
         ("aux", "Gives an auxiliary command by its number."),
         ("manual", "Says that the spindle is switched by hand."),
+        ("limit", "Gives the largest speed of the spindle at a constant cutting speed."),
         ("stop", "Stops until the operator starts the program again."),
         ("optional", "Begins a stop that a switch of the control turns on."),
         ("dwell", "Stops the axes for a time in seconds."),

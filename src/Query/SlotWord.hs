@@ -93,7 +93,8 @@ commandEntries keyword = case keyword of
       <> [("at", (stops, []))]
   "spindle" ->
     own (words' ["cw", "ccw", "off", "manual"]) []
-      <> [(sense, (value Type.spindleSpeed, [])) | sense <- ["cw", "ccw"]]
+      <> [(sense, (value Type.spindleSpeed, words' ["limit"])) | sense <- ["cw", "ccw"]]
+      <> [("limit", (value Type.spindleSpeed, []))]
   "coolant" -> own (words' ["on", "off"]) []
   "aux" -> own (value Type.number) []
   "optional" -> own (words' ["stop"]) []

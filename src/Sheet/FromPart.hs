@@ -29,6 +29,7 @@ import Geometry.Segment qualified as Segment
 import Geometry.Vec qualified as Vec
 import Part.Curve qualified as Curve
 import Part.Link qualified as Link
+import Part.CutFeed (CutFeed (..))
 import Part.Part (Milling, Part)
 import Part.Part qualified as Part
 import Part.Tolerance qualified as Tolerance
@@ -287,10 +288,12 @@ feedOfRun = belowRapid . Part.feed . snd . milled
 
 -- | A feed in mm\/min. Refuses 'rapidFeed', which means a rapid move on a sheet, and all higher
 -- feeds.
-belowRapid :: Located Feed -> Result w Unfit Double
-belowRapid (Located at (Feed f))
-  | f >= rapidFeed = refused (NoFeed at FeedTooHigh)
-  | otherwise = pure f
+belowRapid :: Located CutFeed -> Result w Unfit Double
+belowRapid (Located at v) = case v of
+  PerTurn _ _ -> refused (NoFeed at FeedForTurn)
+  PerMinute (Feed f)
+    | f >= rapidFeed -> refused (NoFeed at FeedTooHigh)
+    | otherwise -> pure f
 
 -- Arrays
 

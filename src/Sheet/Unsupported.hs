@@ -122,6 +122,8 @@ data FeedFault
     FeedTooHigh
   | -- | an element has a feed of its own
     FeedOfElement
+  | -- | the feed is for one turn of the spindle
+    FeedForTurn
   deriving stock (Eq, Ord, Show)
 
 -- | A setting that applies to a whole sheet.
@@ -273,6 +275,7 @@ feedTexts fault = case fault of
       \contour's feed, and from there as you like."
     )
   FeedTooHigh -> ("a feed of 9999 mm/min or more", "On a sheet 9999 means rapid.")
+  FeedForTurn -> ("a feed for one turn of the spindle", "The feeds of a sheet are in mm/min.")
   FeedOfElement ->
     ("an element with a feed of its own", "On a sheet all pieces of an array have one feed.")
 

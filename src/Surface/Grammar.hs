@@ -183,7 +183,12 @@ spin :: Parser Spin
 spin =
   (SpindleStop <$ keyword "off")
     <|> (SpindleByHand <$ keyword "manual")
-    <|> (Spinning <$> sense <*> Parsec.optional (onThisLine expr))
+    <|> ( do
+            turning <- sense
+            speed <- Parsec.optional (onThisLine expr)
+            limit <- maybe (pure Nothing) (const (Parsec.optional (keyword "limit" *> expr))) speed
+            pure (Spinning turning speed limit)
+        )
 
 -- | The definition of a value or of a function, after the keyword @let@.
 definition :: Parser Statement_

@@ -158,6 +158,9 @@ withoutParentheses comments (Located region e) = case e of
     let doc = operand comments Factor inner
      in Beside [Text (if "-" `Text.isPrefixOf` PrettyPrinter.firstText doc then "- " else "-"), doc]
   Not inner -> spaced [Text "not", operand comments Negation inner]
+  -- The unit mm/rev or in/rev.
+  Binary Divide (Located _ (Literal number (Just unit))) (Located _ (Variable (Name "rev"))) ->
+    Text (digits number <> " " <> unitName unit <> "/rev")
   Binary operator left right -> case operatorPrecedence operator of
     Comparison ->
       Series

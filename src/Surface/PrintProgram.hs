@@ -173,7 +173,12 @@ statement comments indent (Located _ s) = case s of
     spinning spin = case spin of
       SpindleStop -> Text "off"
       SpindleByHand -> Text "manual"
-      Spinning sense speed -> spaced (Text (senseName sense) : maybe [] (\e -> [value e]) speed)
+      Spinning sense speed limit ->
+        spaced
+          ( Text (senseName sense) :
+            maybe [] (\e -> [value e]) speed
+              <> maybe [] (\e -> [Text "limit", value e]) limit
+          )
     choices = ChoicePrinter {conditionOf = value, blockOf = block, onlyChoice = onlyWhen}
     onlyWhen inside = case inside of
       [Located _ (When c yes no)] -> Just (Choice c yes no)

@@ -195,7 +195,7 @@ data DefaultPace = RapidMotion | FeedMotion
 
 -- | The command to a spindle: a sense with an optional speed, a stop, or the statement that it is
 -- switched by hand.
-data Spin = Spinning Sense (Maybe Expr) | SpindleStop | SpindleByHand
+data Spin = Spinning Sense (Maybe Expr) (Maybe Expr) | SpindleStop | SpindleByHand
   deriving stock (Eq, Show)
 
 -- | The command to the coolant: on or off.

@@ -120,7 +120,7 @@ ofStatement (Located _ s) = case s of
 -- | Speed of a spindle statement, if it has one.
 ofSpin :: Spin -> [Expr]
 ofSpin spin = case spin of
-  Spinning _ e -> maybeToList e
+  Spinning _ speed limit -> maybeToList speed <> maybeToList limit
   SpindleStop -> []
   SpindleByHand -> []
 

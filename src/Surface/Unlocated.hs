@@ -76,7 +76,7 @@ accuracy a = case a of
 
 command :: Spin -> Spin
 command spin = case spin of
-  Spinning sense speed -> Spinning sense (fmap expr speed)
+  Spinning sense speed limit -> Spinning sense (fmap expr speed) (fmap expr limit)
   SpindleStop -> SpindleStop
   SpindleByHand -> SpindleByHand
 

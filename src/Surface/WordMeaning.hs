@@ -31,6 +31,7 @@ meanings =
           ("stop", "halt pause hold m0 m00 m1 m01"),
           ("s", "sec secs second seconds"),
           ("tip", "direction orientation quadrant"),
+          ("limit", "max maximum clamp up_to most highest"),
           ("cw", "clockwise right m3 m03 forward cwise"),
           ("ccw", "counterclockwise anticlockwise counter_clockwise acw ccwise left m4 m04"),
           ("closed", "close loop cyclic"),

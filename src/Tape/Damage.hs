@@ -20,7 +20,7 @@ import Data.Text (Text)
 import Data.Text qualified as Text
 import Data.Word (Word8)
 import Frame.Frame (Violation (..))
-import Machine.Machine (CommandName (..), Content, FeedCode (..))
+import Machine.Machine (CommandName (..), Content, codeNumber)
 import Machine.Machine qualified as Machine
 import Report.Report (Report (..), ReportPlace (..), report)
 import Report.Report qualified as Report
@@ -221,8 +221,8 @@ ruleText broken = case broken of
   OverCapacity {} -> "the move is longer than a frame can hold"
   TurnOverCapacity {} -> "the turn is longer than a frame can hold"
   BadCentre _ -> "the arc has no centre, or one that is too far away"
-  NoSuchFeedCode _ (FeedCode s) ->
-    "the machine has no feed code " <> Decimal.whole s <> " for this motion"
+  NoSuchFeedCode _ code ->
+    "the machine has no feed code " <> Decimal.whole (codeNumber code) <> " for this motion"
   NoSuchMotion _ ->
     "the machine has no such motion: it cannot run this arc, or the distances contradict it"
   UnknownCommand _ (CommandName o) -> "the machine has no command " <> o

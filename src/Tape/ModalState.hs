@@ -139,7 +139,7 @@ number system state frame word = case content word of
   where
     present yes n = if yes then Just $! n else Nothing
     moving = Frame.isMoving frame
-    FeedCode code = feedCode frame
+    code = Machine.codeNumber (feedCode frame)
     centreNumber a =
       let Pulses2 i j = centre frame; Pulses n = along a (signs system * Pulses3 i j 0) in n
     isCentrePresent p = case p of

@@ -39,6 +39,7 @@ import Toolpath.CuttingPass qualified as CuttingPass
 import Toolpath.DrillMove qualified as DrillMove
 import Toolpath.Error (Error (..), Warning (..))
 import Toolpath.Error qualified as Error
+import Toolpath.FeedRate qualified as FeedRate
 import Toolpath.Intrusion qualified as Intrusion
 import Toolpath.LinkingMove qualified as LinkingMove
 import Toolpath.MillingSide (keyword, leadingSide, oriented, possible)
@@ -62,7 +63,7 @@ toToolpath part = case (Part.start part, Part.operations part) of
       (Just (Toolpath nowhere [] False (setupOf part) (Part.unit part)))
   (Nothing, _) -> Result [] [] Nothing
   (Just begin, operations) ->
-    case collect (firstState part (value begin)) operations of
+    case collect (firstState part (value begin)) (FeedRate.withRates operations) of
       ([], blocks) ->
         let path = Toolpath begin blocks (turns part) (setupOf part) (Part.unit part)
             errors = Intrusion.intrusions path

@@ -26,6 +26,7 @@ import Geometry.Tolerance qualified as Tolerance
 import Geometry.Vec (Point)
 import Geometry.Vec qualified as Vec
 import Geometry.WindingNumber qualified as WindingNumber
+import Part.CutFeed (SpindleRate (..))
 import Part.Part (Milling, Pace (..), Side (..), Work (..))
 import Part.Part qualified as Part
 import Toolpath.Error (Warning (..))
@@ -302,7 +303,11 @@ stoppedSpindles path = if Toolpath.isTurned path then [] else go Resting (Toolpa
     spindleText sense speed =
       "spindle "
         <> (case sense of Part.Clockwise -> "cw"; Part.CounterClockwise -> "ccw")
-        <> maybe "" (\n -> " " <> Decimal.short 4 n <> " rpm") speed
+        <> case speed of
+          NoRate -> ""
+          TurnsPerMinute n -> " " <> Decimal.short 4 n <> " rpm"
+          CuttingSpeed v limit ->
+            " " <> Decimal.short 4 (v / 1000) <> " m/min limit " <> Decimal.short 4 limit <> " rpm"
 
 -- | The state of the spindle while the blocks are executed.
 data Spindle

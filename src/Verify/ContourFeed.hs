@@ -27,6 +27,7 @@ import Geometry.Vec (Point)
 import Geometry.Vec qualified as Vec
 import Machine.Machine (BrakingForm (..), Machine)
 import Machine.Machine qualified as Machine
+import Part.CutFeed qualified as CutFeed
 import Part.Part (Element)
 import Part.Part qualified as Part
 import Verify.Edge (Edge (element, ownAllowance, shape))
@@ -133,7 +134,7 @@ slowFindings machine job motions = case Machine.brakingForm (Machine.braking mac
         let own = dropWhile (not . isSlow) (reverse (filter isBeside after)) <> map fst ends
             -- Lengths from the starts of these motions to the end of the last, which is first here.
             far = drop 1 (scanl plus (Mm 0) (map lengthOf own))
-            long = slowLength (value asked)
+            long = maybe (Mm 0) slowLength (CutFeed.perMinute (value asked))
             needed = min long (total (map lengthOf own))
             (slowLast, needless) = partition ((<= plus long (margin job)) . snd) slows
             slows = [(m, l) | (m, l) <- zip own far, isSlow m]

@@ -80,6 +80,8 @@ data ControlFault
     LatheOrder
   | -- | on a lathe, the way to a retract position, or back, passes through the part
     ThroughProfile
+  | -- | a constant cutting speed without a limit of the turns of the spindle
+    NoSpeedLimit
   deriving stock (Eq, Ord, Show)
 
 -- | Mode in which the control reads numbers, or computes the path.
@@ -92,6 +94,8 @@ data ControlMode
     CompensationMode
   | -- | unit of the feed: per minute, per turn or the inverse of a time
     FeedUnit
+  | -- | meaning of the speed: turns per minute or a constant cutting speed
+    SpeedUnit
   | -- | I and J: from the beginning of the arc or from the work zero
     ArcCentreMode
   deriving stock (Eq, Ord, Show)
@@ -125,6 +129,7 @@ changesReading f = case f of
   BoxMove -> False
   LatheOrder -> False
   ThroughProfile -> False
+  NoSpeedLimit -> False
 
 -- | Words of a report: its title, the label at the motion, the label at the line that set the wrong
 -- value, the reason and the remedy.
@@ -175,6 +180,7 @@ codeOf f = case f of
   BoxMove -> "E0734"
   LatheOrder -> "E0737"
   ThroughProfile -> "E0738"
+  NoSpeedLimit -> "E0739"
 
 -- | Words for a fault. @isUnset@ is true if no line has set the value.
 wordsOf :: ProgramForm -> Bool -> ControlFault -> Wording
@@ -210,6 +216,7 @@ wordsOf form isUnset f = case f of
   BoxMove -> boxMove
   LatheOrder -> latheOrder
   ThroughProfile -> throughProfile
+  NoSpeedLimit -> noSpeedLimit
 
 -- | Labels of motions.
 cuts, descends :: Text
@@ -307,7 +314,7 @@ modeUnknown :: ProgramForm -> ControlMode -> Wording
 modeUnknown form mode =
   Wording
     { title = "no line says " <> question,
-      here = if mode == FeedUnit || mode == ArcCentreMode then cuts else descends,
+      here = if mode `elem` [FeedUnit, SpeedUnit, ArcCentreMode] then cuts else descends,
       there = "",
       reason = kept "mode",
       remedy
@@ -325,6 +332,10 @@ modeWords form mode = case mode of
   DiameterMode -> ("whether X gives radii or diameters", "Write " <> meaning <> " before this motion.")
   CompensationMode -> ("that cutter compensation is off", "Write G40 before this motion.")
   FeedUnit -> ("in what unit the feed is", "Write G94 before the cut.")
+  SpeedUnit ->
+    ( "whether S gives turns or a cutting speed",
+      "Write G97 for turns per minute, or G96 D S for a constant cutting speed."
+    )
   ArcCentreMode ->
     ( "from where I and J are counted",
       "Write G91.1 before the arc: I and J then lead from its beginning to its centre."
@@ -524,4 +535,16 @@ throughProfile =
       there = "",
       reason = "The way along this axis meets a turned profile.",
       remedy = "Move the other axis first, or write ‘retract’ with a place outside of the part."
+    }
+
+noSpeedLimit :: Wording
+noSpeedLimit =
+  Wording
+    { title = "the spindle has a constant cutting speed without a limit",
+      here = cuts,
+      there = "no D in this line",
+      reason =
+        "Near the axis the control turns the spindle as fast as it can, and the chuck may lose the \
+        \part.",
+      remedy = "Write the largest speed with D, as in G96 D2500 S180."
     }

@@ -37,6 +37,9 @@ data StateDemand = StateDemand
     boxLevel :: Maybe Int,
     -- | true if the operator switches the spindle
     isByHand :: Bool,
+    -- | true if the control has feeds for one turn of the spindle; the comparison of the frames then
+    -- finds a wrong unit of a feed
+    hasTurnFeeds :: Bool,
     -- | Nothing for a milling machine
     latheDemand :: Maybe LatheDemand,
     -- | coolant that runs if the program has switched it on
@@ -148,13 +151,21 @@ cutState demand step travel =
       RapidMode -> False
     spindleFindings = case valueOf (spindle m) of
       Just (SpindleTurning _)
-        | Just s <- valueOf (speed m), s > 0 -> []
+        | Just s <- valueOf (speed m), s > 0 -> speedFindings
         | otherwise -> [finding (speed m) NoSpeed]
       _ -> [finding (spindle m) SpindleOff]
+    -- Machines without such a choice keep G97.
+    speedFindings = case valueOf (speedMode m) of
+      Nothing -> [finding (speedMode m) (ModeUnknown SpeedUnit) | isJust (latheDemand demand)]
+      Just ConstantTurns -> []
+      Just (ConstantCutting Nothing) -> [finding (speedMode m) NoSpeedLimit]
+      Just (ConstantCutting (Just _)) -> []
     feedFindings = case valueOf (feedMode m) of
       Nothing -> [finding (feedMode m) (ModeUnknown FeedUnit)]
       Just PerMinute -> [finding (feed m) NoFeed | maybe True (<= 0) (valueOf (feed m))]
-      Just PerTurn -> [finding (feedMode m) NotPerMinute]
+      Just PerTurn
+        | hasTurnFeeds demand -> [finding (feed m) NoFeed | maybe True (<= 0) (valueOf (feed m))]
+        | otherwise -> [finding (feedMode m) NotPerMinute]
       Just InverseTime -> [finding (feedMode m) NotPerMinute]
 
 -- | Faults of the path mode and of the coolant at a motion in work coordinates, rapid moves

@@ -20,8 +20,11 @@ import Control.Motion qualified as Control
 import Data.Maybe (fromMaybe, listToMaybe, mapMaybe)
 import Frame.Frame (Frame, FrameMotion (..), FrameProgram)
 import Frame.Frame qualified as Frame
+import Frame.FeedCode qualified as FeedCode
 import Machine.Machine (BrakingForm (..), FeedCode (..), FeedMeasure (..), Machine)
 import Machine.Machine qualified as Machine
+import Part.CutFeed (CutFeed)
+import Part.CutFeed qualified as CutFeed
 import Part.Part (Pace)
 import Part.Part qualified as Part
 import Verify.Proof (Finding (..), Speed (..))
@@ -50,7 +53,7 @@ asPlanned program frames =
 -- the feeds of single elements, which are in @finishes@. If the cutter has to slow down at the end
 -- of any element, the lowest feed of the machine is allowed too. A braking frame may have any feed
 -- up to the highest allowed one.
-atFeed :: Machine -> Located Feed -> [Part.Finish] -> [Motion] -> [Finding]
+atFeed :: Machine -> Located CutFeed -> [Part.Finish] -> [Motion] -> [Finding]
 atFeed machine demanded finishes = mapMaybe wrongFeed
   where
     wrongFeed m = do
@@ -99,12 +102,20 @@ notSlow machine asked m = WrongFeed (number m) (speedOf (frame m)) lowest asked
 
 -- Codes and speeds --------------------------------------------------------------------------------
 
+-- | Code for the feed of a cut in a motion. Nothing if the machine has no such feed.
+codeFor :: Machine -> Motion -> CutFeed -> Maybe FeedCode
+codeFor machine m v = case (FeedCode.turnCode machine v, CutFeed.perMinute v) of
+  (Just (Machine.Given c _), _) -> Just c
+  (Just (Machine.NoSuchFeed _ _), _) -> Nothing
+  (Nothing, Just feed) -> codePerMinute machine m feed
+  (Nothing, Nothing) -> Nothing
+
 -- | Code for a feed of @v@ mm/min along the path of a motion. Nothing if the machine has no such
 -- feed. On some machines a code means the pulse frequency of the leading axis. That frequency is
 -- @v/60·n/L@ pulses per second. Here @L@ is the length of the path in mm, and @n@ is the number of
 -- pulses that the leading axis moves.
-codeFor :: Machine -> Motion -> Feed -> Maybe FeedCode
-codeFor machine m (Feed v) = case Machine.choose machine inMeasure of
+codePerMinute :: Machine -> Motion -> Feed -> Maybe FeedCode
+codePerMinute machine m (Feed v) = case Machine.choose machine inMeasure of
   Machine.Given c _ -> Just c
   Machine.NoSuchFeed _ _ -> Nothing
   where

@@ -16,7 +16,7 @@ import Data.List (foldl')
 import Data.List.NonEmpty qualified as NonEmpty
 import Data.Map.Strict (Map)
 import Data.Map.Strict qualified as Map
-import Data.Maybe (mapMaybe)
+import Data.Maybe (isJust, mapMaybe)
 import Data.Text (Text)
 import Data.Text qualified as Text
 import Frame.Frame (Frame, FrameProgram)
@@ -124,6 +124,7 @@ demandOf machine form heading program hasContours =
               BoxPath | isInfinite z -> Just maxBound
               BoxPath -> Just (round (z * 1.0e9)),
       isByHand = isSpindleByHand heading,
+      hasTurnFeeds = isJust (Machine.turnFeeds (Machine.feeds machine)),
       latheDemand = latheDemandOf machine heading <$> lathe form,
       runningCoolant = if switchesMist then Mist else Flood,
       mostBlending = if hasContours then Nothing else Just (Machine.planeResolution machine)

@@ -31,7 +31,7 @@ import Frame.Frame (Violation)
 import Frame.Frame qualified as Frame
 import Geometry.Vec (Point)
 import Geometry.Vec qualified as Vec
-import Machine.Machine (CommandName (..), FeedCode (..), Machine, RotaryAxis)
+import Machine.Machine (CommandName (..), FeedCode, Machine, RotaryAxis)
 import Machine.Machine qualified as Machine
 import Report.Report (Report (hints, label, message), ReportPlace (..), report)
 import Report.Report qualified as Report
@@ -353,7 +353,7 @@ toReport unit machine finding = case finding of
       }
   WrongCommand n (CommandName name) found wanted ->
     ( wrong
-        "E0708"
+        (if isLimit (CommandName name) then "E0740" else "E0708")
         InFile
         ( frameWord n
             <> maybe
@@ -415,6 +415,15 @@ toReport unit machine finding = case finding of
   where
     wrong = report Report.Error
     frameWord n = "frame " <> Decimal.whole n
+    -- True for the limit of the spindle at a constant cutting speed.
+    isLimit name =
+      name
+        `elem` [ Machine.commandName w
+                 | w <-
+                     Machine.surfaceClockwise (Machine.commandWords machine)
+                       <> Machine.surfaceCounterClockwise (Machine.commandWords machine),
+                   Machine.value w == Machine.SpeedLimit
+               ]
     micro x = Decimal.fixedInUnit unit 4 x
 
 -- | Number of the refused frame.
@@ -432,8 +441,8 @@ refusalWords unit refusal = case refusal of
       (n, "turns " <> rotaryWord axis <> " by " <> pulses d <> ", more than its field holds", [])
     Frame.BadCentre n ->
       (n, "has no centre for its arc", ["It is missing, or it is more than its fields hold."])
-    Frame.NoSuchFeedCode n (FeedCode c) ->
-      (n, "has the feed code " <> Decimal.whole c <> ", which the machine does not know there", [])
+    Frame.NoSuchFeedCode n c ->
+      (n, "has the feed code " <> Decimal.whole (Machine.codeNumber c) <> ", which the machine does not know there", [])
     Frame.NoSuchMotion n ->
       ( n,
         "asks for a motion that the machine does not have",
@@ -475,14 +484,16 @@ speed unit machine s =
   (if rapidly s then "rapid" else feed)
     <> (if braking s then ", braking" else "")
   where
-    feed =
-      "speed "
-        <> Decimal.whole number
-        <> maybe
+    feed = "speed " <> Decimal.whole (Machine.codeNumber (code s)) <> meaning
+    meaning = case (code s, Machine.turnFeeds (Machine.feeds machine)) of
+      (Machine.TurnCode n, Just f) ->
+        let d = Machine.turnDecimals f
+         in " (" <> Decimal.short d (fromIntegral n / 10 ^ d) <> " mm/rev)"
+      _ ->
+        maybe
           ""
           (\v -> " (" <> measured v <> ")")
           (Machine.valueOf machine (code s))
-    FeedCode number = code s
     measured v = case Machine.feedMeasure (Machine.feeds machine) of
       Machine.AlongPath -> Decimal.feedIn unit 2 (Feed v)
       Machine.LeadingAxis -> Decimal.short 2 v <> " pulses a second"

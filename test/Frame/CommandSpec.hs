@@ -16,6 +16,7 @@ import Geometry.Vec qualified as Vec
 import Machine.FromText qualified as FromText
 import Machine.Machine (CommandName (..), Machine)
 import Machines qualified
+import Part.CutFeed (SpindleRate (..))
 import Part.Part (Command (..), CutterKind (..), Pace (..), Sense (..), Switch (..))
 import Part.Part qualified as Part
 import Test.Hspec
@@ -33,7 +34,7 @@ spec = do
     it "are pending until a move has a frame (catches a command in a frame that is dropped)" $
       commandsOf kontur [c (Auxiliary 7), stay, go] `shouldBe` [(True, [("aux", 7)])]
     it "are in the order of the layout's words (catches the order of the program in a frame)" $
-      commandsOf kontur [c (CoolantTo SwitchOn), c (tool 3), c (SpindleOn Clockwise (Just 500)), go]
+      commandsOf kontur [c (CoolantTo SwitchOn), c (tool 3), c (SpindleOn Clockwise (TurnsPerMinute 500)), go]
         `shouldBe` [(True, [("spindle", 10), ("tool", 3), ("aux", 51)])]
     it
       "that need the same word twice take several frames, in the order of the program (catches a \
@@ -44,14 +45,14 @@ spec = do
                      (True, [("aux", 9)])
                    ]
     it "keep the words of one command together (catches a speed a frame before its spindle)" $
-      commandsOf iso [c (tool 2), c (SpindleOn CounterClockwise (Just 999.6)), go]
+      commandsOf iso [c (tool 2), c (SpindleOn CounterClockwise (TurnsPerMinute 999.6)), go]
         `shouldBe` [ (False, [("T", 2), ("M", 6)]),
                      (True, [("S", 1000), ("M", 4)]),
                      (False, [("M", 5)]),
                      (False, [("M", 30)])
                    ]
     it "without a spindle speed leave out the word for it" $
-      commandsOf iso [c (SpindleOn Clockwise Nothing), go]
+      commandsOf iso [c (SpindleOn Clockwise NoRate), go]
         `shouldBe` [(True, [("M", 3)]), (False, [("M", 5)]), (False, [("M", 30)])]
     it
       "are never lost, never twice in a frame, and keep their order word by word (catches a group \
@@ -86,7 +87,7 @@ spec = do
                     === length [() | Right d <- steps, d > 0]
   describe "spindle steps" $ do
     it "are the nearest, the lower one of two" $
-      [commandsOf kontur [c (SpindleOn Clockwise (Just v)), go] | v <- [499, 1, 1e5]]
+      [commandsOf kontur [c (SpindleOn Clockwise (TurnsPerMinute v)), go] | v <- [499, 1, 1e5]]
         `shouldBe` [[(True, [("spindle", n)])] | n <- [10, 1, 15]]
     it
       "that miss the speed by more than a tenth give a warning (catches a wrong spindle speed \
@@ -94,7 +95,7 @@ spec = do
       $ [ length
             [ ()
               | SpindleSpeedDiffers {} <-
-                  Result.warnings (quantised kontur [c (SpindleOn Clockwise (Just v)), go])
+                  Result.warnings (quantised kontur [c (SpindleOn Clockwise (TurnsPerMinute v)), go])
             ]
           | v <- [500, 560, 460, 1e5]
         ]
@@ -103,7 +104,7 @@ spec = do
     it
       "has a frame of its own, after the commands before it (catches a stop in the frame of a \
       \move, which is made first)"
-      $ commandsOf iso [c (SpindleOn Clockwise Nothing), c ProgramStop, go, c OptionalStop, go]
+      $ commandsOf iso [c (SpindleOn Clockwise NoRate), c ProgramStop, go, c OptionalStop, go]
         `shouldBe` [ (False, [("M", 3)]),
                      (False, [("M", 0)]),
                      (True, []),
@@ -154,8 +155,8 @@ spec = do
       [ Result.warnings (quantised (Machines.named m) [c x, go])
         | (m, x) <-
             [ ("lki-u", CoolantTo SwitchOn),
-              ("n55", SpindleOn CounterClockwise (Just 100)),
-              ("kontur-3p", SpindleOn Clockwise Nothing)
+              ("n55", SpindleOn CounterClockwise (TurnsPerMinute 100)),
+              ("kontur-3p", SpindleOn Clockwise NoRate)
             ]
       ]
         `shouldBe` [ [ManualCommand (Region 0 0) CoolantCommand],
@@ -173,7 +174,7 @@ spec = do
                 ("lkp-01f", Auxiliary 8),
                 ("lkp-01f", Auxiliary 7),
                 ("kontur-3p", tool 100),
-                ("iso6983", SpindleOn Clockwise (Just 1e6))
+                ("iso6983", SpindleOn Clockwise (TurnsPerMinute 1e6))
               ]
         ]
         `shouldBe` [ [(AuxiliaryCommand, 1, 0)],

@@ -18,6 +18,7 @@ import Geometry.Vec qualified as Vec
 import Machine.Machine (CommandName (..), FeedCode (..), Machine)
 import Machine.Machine qualified as Machine
 import Machines qualified
+import Part.CutFeed (SpindleRate (..))
 import Part.Part (Pace (..))
 import Part.Part qualified as Part
 import Test.Hspec
@@ -159,7 +160,7 @@ shaftPath :: Toolpath
 shaftPath =
   toward
     { blocks =
-        Commanding (Located (Region 0 0) (Part.SpindleOn Part.Clockwise (Just 500))) :
+        Commanding (Located (Region 0 0) (Part.SpindleOn Part.Clockwise (TurnsPerMinute 500))) :
         blocks toward
           <> blocks (Made.pathAlong (At (here 20)) [Straight (Vec.point 2 50) (Vec.point (-40) 50)])
     }

@@ -116,7 +116,7 @@ blankMachine forms arcKind how feedTable =
       arcs = arcKind,
       layout =
         Layout {items = NonEmpty.fromList [Literal "x"], measure = how, separator = ""},
-      feeds = Feeds AlongPath feedTable 1 NotAbove Highest,
+      feeds = Feeds AlongPath feedTable 1 NotAbove Highest Nothing,
       Machine.braking = Braking 5 SlowFrames,
       Machine.commandWords = noCommandWords,
       limits = Limits Nothing,

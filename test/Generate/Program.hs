@@ -177,7 +177,11 @@ statement n = at (frequency ([(1, s) | s <- simple] <> [(3, s) | n > 0, s <- dee
         Change <$> expr n <*> cutter n <*> maybe' (expr n),
         Spindle
           <$> oneof
-            [pure SpindleStop, pure SpindleByHand, Spinning <$> every <*> maybe' (expr n)],
+            [ pure SpindleStop,
+              pure SpindleByHand,
+              (\s v -> Spinning s v Nothing) <$> every <*> maybe' (expr n),
+              (\s v l -> Spinning s (Just v) (Just l)) <$> every <*> expr n <*> expr n
+            ],
         Coolant <$> every,
         Auxiliary <$> expr n,
         pure ProgramStop,

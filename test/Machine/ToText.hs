@@ -178,13 +178,13 @@ feedLines f =
       Listed t ->
         block
           "table"
-          [Decimal.whole c <> " = " <> Decimal.exact v | (FeedCode c, v) <- Map.toList t]
+          [Decimal.whole (codeNumber c) <> " = " <> Decimal.exact v | (c, v) <- Map.toList t]
     <> [ "rule " <> case rule f of
            NotAbove -> "not-above"
            Nearest -> "nearest",
          "rapid " <> case rapidFeed f of
            Highest -> "highest"
-           ByCode (FeedCode c) -> "code " <> Decimal.whole c
+           ByCode c -> "code " <> Decimal.whole (codeNumber c)
        ]
 
 brakingLines :: Braking -> [Text]
@@ -223,7 +223,9 @@ commandLines o =
         ("auxiliary", auxiliary o),
         ("stop", programStop o),
         ("optional-stop", optionalStop o),
-        ("dwell", dwell o)
+        ("dwell", dwell o),
+        ("surface-clockwise", surfaceClockwise o),
+        ("surface-counterclockwise", surfaceCounterClockwise o)
       ]
     commandWordLines (CommandWord (CommandName n) v) = case v of
       Fixed k -> ["set " <> quoted n <> " " <> Decimal.whole k]
@@ -231,6 +233,8 @@ commandLines o =
       Diameter -> ["set " <> quoted n <> " diameter"]
       InSeconds -> ["set " <> quoted n <> " seconds"]
       InMilliseconds -> ["set " <> quoted n <> " milliseconds"]
+      InMetres -> ["set " <> quoted n <> " cutting-speed"]
+      SpeedLimit -> ["set " <> quoted n <> " limit"]
       Step t ->
         block
           ("set " <> quoted n <> " steps")

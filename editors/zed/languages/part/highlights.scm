@@ -34,7 +34,7 @@
   "on" "off" "at" "step"
   "approach" "retract" "depth" "lead" "out" "line" "arc" "allowance" "corners" "round" "sharp"
   "compensation" "compiler" "controller" "start" "plunge" "peck" "islands" "rest" "allowed"
-  "diameter" "nose" "cone" "blade" "height" "gear" "tip" "manual" "s"
+  "diameter" "nose" "cone" "blade" "height" "gear" "tip" "manual" "limit" "s"
 ] @keyword
 (climb) @keyword
 (conventional) @keyword
