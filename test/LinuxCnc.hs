@@ -41,6 +41,7 @@ import Geometry.Segment (Segment (..))
 import Geometry.Segment qualified as Segment
 import Geometry.Vec (Point)
 import Geometry.Vec qualified as Vec
+import Part.CutFeed qualified as CutFeed
 import Part.Part (Pace (..), SpacePoint (..))
 import Part.Part qualified as Part
 import System.Directory (findExecutable)
@@ -338,4 +339,4 @@ legs path =
       _ -> exactly
     asked pace = case pace of
       Rapid -> InRapid
-      At (Located _ (Feed f)) -> AtFeed f
+      At (Located _ v) -> AtFeed (maybe 0 (\(Feed f) -> f) (CutFeed.perMinute v))

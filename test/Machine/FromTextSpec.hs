@@ -256,6 +256,7 @@ furnished m = do
   measured <- elements [AlongPath, LeadingAxis]
   rounding <- elements [NotAbove, Nearest]
   rapid' <- elements [Highest, ByCode (fst (slowest m))]
+  forTurn <- elements [Nothing, Just (TurnFeeds 3 1 20000), Just (TurnFeeds 0 2 7)]
   commands' <- commandsFor m
   let hasBrakingHole = BrakingHole `elem` concatMap (service . form) (wordsOf m)
       canBrakeByFrames = hasBrakingHole && measured == AlongPath
@@ -264,7 +265,7 @@ furnished m = do
           { title = heading,
             braking = Braking a (if canBrakeByFrames then brakingForm' else ByControl),
             limits = Limits contours,
-            feeds = (feeds m) {feedMeasure = measured, rule = rounding, rapidFeed = rapid'},
+            feeds = (feeds m) {feedMeasure = measured, rule = rounding, rapidFeed = rapid', turnFeeds = forTurn},
             commandWords = commands'
           }
   control <- controllerFor whole
@@ -275,6 +276,7 @@ commandsFor :: Machine -> Gen CommandWords
 commandsFor m = do
   listed <- traverse (const event) [1 .. 9 :: Int]
   dwells <- sublistOf names >>= traverse dwellWord
+  surface <- sublistOf names >>= traverse surfaceWord
   ends <- resize 3 (listOf (fixedWord m =<< elements ("" : names)))
   compensated <- elements [Nothing, Just False, Just True]
   pure $ case (listed, names) of
@@ -290,6 +292,8 @@ commandsFor m = do
           programStop = onlyFixed i,
           optionalStop = onlyFixed j,
           dwell = dwells,
+          surfaceClockwise = surface,
+          surfaceCounterClockwise = reverse surface,
           compensation = compensationBy m n <$> compensated,
           finish = [o NonEmpty.:| [] | Just o <- ends]
         }
@@ -306,6 +310,9 @@ commandsFor m = do
       Diameter -> False
       InSeconds -> False
       InMilliseconds -> False
+      InMetres -> False
+      SpeedLimit -> False
+    surfaceWord n = CommandWord (CommandName n) <$> elements [InMetres, SpeedLimit]
     dwellWord n = CommandWord (CommandName n) <$> elements [InSeconds, InMilliseconds]
 
 -- | Names of the commands for which a frame has a word or bits.

@@ -186,6 +186,14 @@ feedLines f =
            Highest -> "highest"
            ByCode c -> "code " <> Decimal.whole (codeNumber c)
        ]
+    <> [ "per-turn "
+           <> Decimal.exact (1 / 10 ^ turnDecimals t)
+           <> " mm/rev "
+           <> Decimal.whole (lowestTurn t)
+           <> ".."
+           <> Decimal.whole (highestTurn t)
+         | Just t <- [turnFeeds f]
+       ]
 
 brakingLines :: Braking -> [Text]
 brakingLines b =

@@ -101,7 +101,11 @@ raisedElsewhere =
         "E0731",
         "E0732",
         "E0733",
-        "E0734"
+        "E0734",
+        "E0737",
+        "E0738",
+        "E0739",
+        "E0740"
       ]
     ),
     ( "files and the command line",
