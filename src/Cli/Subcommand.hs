@@ -252,7 +252,8 @@ verifyGcode reporter given form gcode compiled = case GcodeFile.read form compil
     let proof = Compile.proveGcode form part compiled reading
         (texts, wrong) = GcodeFile.reports form compiled gcode (source given) reading proof
     Progress.during ("proving " <> name given) (evaluated (Result.failing wrong proof))
-    exit <- printResult reporter (ProofTable.proof (unitOf compiled) (Compile.machine compiled) proof)
+    let table = ProofTable.proof (unitOf compiled) (Compile.machine compiled) proof
+    exit <- printResult reporter table
     _ <- Output.showReports reporter (name given) texts wrong
     pure (if null wrong then exit else Disproven)
   where

@@ -64,11 +64,12 @@ feedAt machine rate f = case (code, Machine.turnFeeds (Machine.feeds machine)) o
 
 -- | How fast the spindle turns after the commands of a frame.
 rateIn :: Machine -> Frame -> Maybe SpindleRate
-rateIn machine f = case (given InMetres surfaces, given SpeedLimit surfaces, given Argument plain) of
+rateIn machine f = case (given InMetres surfaces, given SpeedLimit surfaces, turns) of
   (v : _, limit : _, _) -> Just (CuttingSpeed (1000 * fromIntegral v) (fromIntegral limit))
   (_, _, n : _) -> Just (TurnsPerMinute (fromIntegral n))
   _ -> Nothing
   where
+    turns = given Argument plain
     table = Machine.commandWords machine
     plain = spindleClockwise table <> spindleCounterClockwise table
     surfaces = surfaceClockwise table <> surfaceCounterClockwise table

@@ -48,8 +48,8 @@ data ToolFault
 machineName :: Machine -> Text
 machineName machine = let MachineName n = Machine.name machine in n
 
--- | Tools of a program in the order of their use, each with the region that puts it into use. A first
--- tool without a number has the number 0.
+-- | Tools of a program in the order of their use, each with the region that puts it into use. A
+-- first tool without a number has the number 0.
 toolsOf :: Toolpath -> [(Region, (Int, Cutter))]
 toolsOf path =
   [ (maybe (region (start path)) region number, (maybe 0 value number, cutter))
@@ -89,7 +89,8 @@ cannotMill :: Machine -> Region -> Report
 cannotMill machine region =
   (at region "E0517" "a lathe does not mill")
     { message = [machineName machine <> " turns only. It has no z axis and no milling cutters."],
-      hints = ["Compile for a milling machine, or write ‘turn’ with a tool ‘turn(nose 0.8 mm, tip 2)’."]
+      hints =
+        ["Compile for a milling machine, or write ‘turn’ with a tool ‘turn(nose 0.8 mm, tip 2)’."]
     }
 
 cannotTurn :: Machine -> Region -> Report

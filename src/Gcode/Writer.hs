@@ -188,7 +188,7 @@ headTexts context@Context {machine, form, heading} part =
   [("part", partName heading <> (if title == "" then "" else ", " <> title))]
     <> [("machine", name)]
     <> [("remark", remark form) | remark form /= ""]
-    <> [("time", FileTime.timeText (FileTime.timeOf machine (begins part) (map frame (framesOf part))))]
+    <> [("time", FileTime.timeText duration)]
     <> [ ("tool " <> Decimal.whole n, text)
          | (n, text) <- toolList heading,
            ProgramForm.changesTools (dialect form) || Just n == toolOf part
@@ -196,6 +196,7 @@ headTexts context@Context {machine, form, heading} part =
     <> [("before the start", text) | text <- operatorTexts form heading]
     <> [("the build needs", text) | dialect form == Marlin, text <- marlinTexts context part]
   where
+    duration = FileTime.timeOf machine (begins part) (map frame (framesOf part))
     title = partTitle heading
     MachineName name = Machine.name machine
 
@@ -471,8 +472,8 @@ motionLines context@Context {form} now f
             _ -> Just (feedCode f)
         }
 
--- | Lines that take a tool from the retract height to its position: x and y first, then z. On a lathe
--- the axis that left the work first comes back last.
+-- | Lines that take a tool from the retract height to its position: x and y first, then z. On a
+-- lathe the axis that left the work first comes back last.
 descentLines :: Context -> Writing -> [Text]
 descentLines context@Context {form} now =
   ["M8" | isCoolantPaused now]

@@ -26,7 +26,8 @@ data FeedCode
     TurnCode Int
   deriving stock (Eq, Ord, Show)
 
--- | Feeds for one turn of the spindle. The code of a feed is its count of steps of 10^(-d) mm, where
+-- | Feeds for one turn of the spindle. The code of a feed is its count of steps of 10^(-d) mm,
+-- where
 -- @d@ is 'turnDecimals'.
 data TurnFeeds = TurnFeeds
   { turnDecimals :: Int,

@@ -271,10 +271,11 @@ inInches machine = case programForm machine of
     inchFeeds f = case codes f of
       Direct a b ->
         f
-          { codes = Direct (max 1 (ceiling (fromIntegral a / step))) (floor (fromIntegral b / step)),
+          { codes = Direct (max 1 (ceiling (stepsOf a))) (floor (stepsOf b)),
             directStep = step
           }
       Listed _ -> f
+    stepsOf n = fromIntegral n / step :: Double
     step = millimetresIn Inches / 10
 
 -- | True if the machine's axes mirror the part, so that the left side of a contour is the right
@@ -435,10 +436,12 @@ valueOf machine c = case (codes (feeds machine), c) of
 -- both 0 for an empty table.
 feedRange :: Machine -> (Double, Double)
 feedRange machine = case codes (feeds machine) of
-  Direct a b -> let step = directStep (feeds machine) in (fromIntegral a * step, fromIntegral b * step)
+  Direct a b -> (valueAt a, valueAt b)
   Listed table -> case Map.elems table of
     [] -> (0, 0)
     vs -> (minimum vs, maximum vs)
+  where
+    valueAt n = fromIntegral n * directStep (feeds machine)
 
 -- | Feed code of rapid moves. If the machine has a motion code for rapid moves, their frames do
 -- not contain this feed code. It then serves only to find their speed, which is its value.

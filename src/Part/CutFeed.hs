@@ -49,8 +49,8 @@ perMinuteAt radius f = case f of
   PerTurn _ NoRate -> Nothing
   PerTurn (Mm d) rate -> Just (Feed (d * turnsAt radius rate))
 
--- | The turns of the spindle per minute while the tool is at a distance from the axis; 0 if they are
--- not known.
+-- | The turns of the spindle per minute while the tool is at a distance from the axis; 0 if they
+-- are not known.
 turnsAt :: Mm -> SpindleRate -> Double
 turnsAt (Mm radius) rate = case rate of
   NoRate -> 0

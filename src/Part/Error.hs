@@ -236,7 +236,11 @@ factReport unit arguments fact = case fact of
     let text = Decimal.inUnit unit (Mm clearance)
      in (at region "E0361" "the safe height is below the clearance height")
           { message =
-              [ "It is " <> Decimal.inUnit unit (Mm safe) <> ", and the clearance height is " <> text <> "."
+              [ "It is "
+                  <> Decimal.inUnit unit (Mm safe)
+                  <> ", and the clearance height is "
+                  <> text
+                  <> "."
               ],
             others = [Label higher ("a clearance of " <> text)],
             fixes = [Fix.proposed (Fix.exchange ("Write " <> text <> ".") region text)]

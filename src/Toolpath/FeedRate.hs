@@ -11,7 +11,16 @@ import Base.Region (Located (..))
 import Data.List (mapAccumL)
 import Part.CutFeed (CutFeed, SpindleRate (..))
 import Part.CutFeed qualified as CutFeed
-import Part.Part (Command (..), Contour, Drilling, Element, Milling, Operation (..), Pocketing, Stop)
+import Part.Part
+  ( Command (..),
+    Contour,
+    Drilling,
+    Element,
+    Milling,
+    Operation (..),
+    Pocketing,
+    Stop,
+  )
 import Part.Part qualified as Part
 
 -- | Operations with the rate of the spindle in all feeds.

@@ -76,7 +76,9 @@ throughPart path =
       Cutting {approach, retract} -> approach <> retract
       _ -> Toolpath.moves b
     index =
-      BoxTree.index boxOf (concatMap NonEmpty.toList (mapMaybe (bodiesOf bore . snd) (firstPasses path)))
+      BoxTree.index
+        boxOf
+        (concatMap NonEmpty.toList (mapMaybe (bodiesOf bore . snd) (firstPasses path)))
     innermost p =
       case filter
         ((`WindingNumber.encloses` p) . outline)
@@ -214,8 +216,8 @@ firstPasses path =
       _ -> []
 
 -- | The bodies at which a pass cuts: for a pass along a contour those of 'bodyOf', for a pocket its
--- outer contour and its islands. Nothing if there are none. @bore@ is the radius of a bore along the
--- axis of the spindle.
+-- outer contour and its islands. Nothing if there are none. @bore@ is the radius of a bore along
+-- the axis of the spindle.
 bodiesOf :: Mm -> Block -> Maybe (NonEmpty.NonEmpty Body)
 bodiesOf bore b = case b of
   Cutting {job = Located _ milling} -> NonEmpty.nonEmpty (bodyOf bore milling)

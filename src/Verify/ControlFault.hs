@@ -329,7 +329,8 @@ modeWords form mode = case mode of
     ( "whether positions are absolute or incremental",
       "Write G90 for absolute or G91 for incremental positions before this motion."
     )
-  DiameterMode -> ("whether X gives radii or diameters", "Write " <> meaning <> " before this motion.")
+  DiameterMode ->
+    ("whether X gives radii or diameters", "Write " <> meaning <> " before this motion.")
   CompensationMode -> ("that cutter compensation is off", "Write G40 before this motion.")
   FeedUnit -> ("in what unit the feed is", "Write G94 before the cut.")
   SpeedUnit ->
@@ -381,7 +382,8 @@ noFeed isUnset =
       remedy = "Write the feed in the line of the cut or before it, as in G1 X10 F300."
     }
 
--- | Words for a coolant that the program does not switch on. @asked@ is the one that it switches on.
+-- | Words for a coolant that the program does not switch on. @asked@ is the one that it switches
+-- on.
 otherCoolant :: Coolant -> Wording
 otherCoolant asked =
   Wording

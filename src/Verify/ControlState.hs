@@ -37,8 +37,8 @@ data StateDemand = StateDemand
     boxLevel :: Maybe Int,
     -- | true if the operator switches the spindle
     isByHand :: Bool,
-    -- | true if the control has feeds for one turn of the spindle; the comparison of the frames then
-    -- finds a wrong unit of a feed
+    -- | true if the control has feeds for one turn of the spindle; the comparison of the frames
+    -- then finds a wrong unit of a feed
     hasTurnFeeds :: Bool,
     -- | Nothing for a milling machine
     latheDemand :: Maybe LatheDemand,

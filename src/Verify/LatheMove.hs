@@ -103,8 +103,8 @@ passages begin finish = mapMaybe passageAt [begin, finish]
       _ -> Nothing
 
 -- | Test that the tool passes through a profile. A nose may come as near as its radius less the
--- slack. A nose within the slack is taken for a point: it passes through if it would do so at either
--- side of its way.
+-- slack. A nose within the slack is taken for a point: it passes through if it would do so at
+-- either side of its way.
 crosses :: LatheDemand -> Step -> Passage -> Bool
 crosses demand step (Passage (z, x) isAlongX)
   | noseRadius nose > slack demand =

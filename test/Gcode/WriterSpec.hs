@@ -119,9 +119,10 @@ programs machine = do
     ( programOf
         machine
         (Pulses3 1000 (-2000) (Pulses z))
-        (zip (drop 1 (scanl keep (CommandState.initial {tool = Just 1}) states)) (take count (first <> moves)))
+        (zip (drop 1 (scanl keep begin states)) (take count (first <> moves)))
     )
   where
+    begin = CommandState.initial {tool = Just 1}
     keep earlier now = if isNothing (tool now) then now {tool = tool earlier} else now
     states' =
       CommandState
