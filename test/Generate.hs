@@ -48,6 +48,7 @@ import Machine.Machine qualified as Machine
 import Offset.Equidistant (OffsetSegment)
 import Offset.Equidistant qualified as Equidistant
 import Part.ContourElement qualified as ContourElement
+import Part.CutFeed (CutFeed (..))
 import Part.Part (Element (..), Milling (Milling), Operation (..), Part (Part), Stop (Stop))
 import Part.Part qualified as Part
 import Test.QuickCheck
@@ -206,7 +207,7 @@ job c =
       Part.gear = Nothing,
       Part.places = noPlaces,
       Part.tolerance = Part.OnPath (Mm 0.02),
-      Part.feed = here (Feed 60),
+      Part.feed = here (PerMinute (Feed 60)),
       Part.approach = [Stop (here (begin c)) Nothing Part.Rapid],
       Part.retract = [],
       Part.levels = [],

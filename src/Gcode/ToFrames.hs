@@ -257,8 +257,11 @@ stateOf m =
 speedOf :: ModalState -> SpindleNumbers
 speedOf m = case (valueOf (speed m), valueOf (speedMode m)) of
   (Nothing, _) -> NoNumber
-  (Just v, Just (ConstantCutting limit)) -> SurfaceNumbers (round v) limit
+  (Just v, Just (ConstantCutting limit)) -> SurfaceNumbers (round (v * perUnit)) limit
   (Just v, _) -> TurnNumber (round v)
+  where
+    -- In inches a cutting speed is in feet per minute.
+    perUnit = if valueOf (units m) == Just Inches then 0.3048 else 1 :: Double
 
 -- | Adds a frame of commands.
 addCommands :: Int -> [(Machine.CommandName, Int)] -> Converting -> Converting

@@ -20,6 +20,7 @@ import Machine.Machine (BrakingForm (..), Machine)
 import Machine.Machine qualified as Machine
 import Machines qualified
 import Offset.Equidistant qualified as Equidistant
+import Part.CutFeed (CutFeed (..))
 import Part.Part qualified as Part
 import Test.Hspec
 import Test.QuickCheck
@@ -138,7 +139,7 @@ toolpathOf accuracy c =
                     (Region 0 0)
                     (Run.jobAlong c)
                       { Part.tolerance = accuracy,
-                        Part.feed = Located (Region 0 0) (Feed 100)
+                        Part.feed = Located (Region 0 0) (PerMinute (Feed 100))
                       }
                 )
             )

@@ -20,6 +20,7 @@ import Geometry.Vec qualified as Vec
 import Machine.Machine (Arcs (..), BrakingForm (..), Machine)
 import Machine.Machine qualified as Machine
 import Machines qualified
+import Part.CutFeed (CutFeed (..))
 import Part.Part qualified as Part
 import Test.Hspec
 import Test.QuickCheck
@@ -221,7 +222,7 @@ framesOf :: Frame.FrameProgram -> [Frame]
 framesOf = map frame . Frame.plannedFrames
 
 feed :: Part.Pace
-feed = Part.At (Located (Region 0 0) (Feed 60))
+feed = Part.At (Located (Region 0 0) (PerMinute (Feed 60)))
 
 -- | Machines with circular interpolation.
 machine :: Gen Machine

@@ -16,6 +16,7 @@ import Geometry.Vec qualified as Vec
 import Machine.Machine (FeedCode (..), Machine)
 import Machine.Machine qualified as Machine
 import Machines qualified
+import Part.CutFeed (CutFeed (..))
 import Part.Part (Pace (..), SpacePoint (SpacePoint))
 import Test.Hspec
 import Test.QuickCheck
@@ -96,8 +97,8 @@ spec = do
         (Region 0 0)
         False
 
-here :: Double -> Located Feed
-here = Located (Region 0 0) . Feed
+here :: Double -> Located CutFeed
+here = Located (Region 0 0) . PerMinute . Feed
 
 framesFor :: Machine -> [Move] -> Maybe [Frame]
 framesFor m ms =
@@ -148,7 +149,8 @@ neededLength m ms =
       [(l, speedOf (Toolpath.pace x)) | x <- ms, let Mm l = Segment.length (Toolpath.segment x)]
     speedOf p = case p of
       Rapid -> snd (Machine.feedRange m) / 60
-      At (Located _ (Feed v)) -> case Machine.choose m v of
+      At (Located _ (PerTurn _ _)) -> error "no feed per turn"
+      At (Located _ (PerMinute (Feed v))) -> case Machine.choose m v of
         Machine.Given _ g -> g / 60
         Machine.NoSuchFeed _ _ -> v / 60
     -- The lower feeds after the end of each move, and their distances.

@@ -24,6 +24,7 @@ import Geometry.Vec (Point)
 import Geometry.Vec qualified as Vec
 import Machine.Machine (FeedCode (..), Machine)
 import Machines qualified
+import Part.CutFeed (CutFeed (..))
 import Part.Part qualified as Part
 import Test.Hspec
 import Test.QuickCheck
@@ -151,7 +152,7 @@ spec = do
               slowly e = e {Part.finish = Part.plainFinish {Part.slow = True}}
               braked' =
                 job
-                  { Part.feed = Feed 240 <$ Part.feed job,
+                  { Part.feed = PerMinute (Feed 240) <$ Part.feed job,
                     Part.contour =
                       (Part.contour job)
                         { Part.elements =

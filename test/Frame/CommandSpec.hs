@@ -16,7 +16,7 @@ import Geometry.Vec qualified as Vec
 import Machine.FromText qualified as FromText
 import Machine.Machine (CommandName (..), Machine)
 import Machines qualified
-import Part.CutFeed (SpindleRate (..))
+import Part.CutFeed (CutFeed (..), SpindleRate (..))
 import Part.Part (Command (..), CutterKind (..), Pace (..), Sense (..), Switch (..))
 import Part.Part qualified as Part
 import Test.Hspec
@@ -203,7 +203,7 @@ quantised m parts = Made.quantised m (base {blocks = blocksFrom 0 parts})
       Right d : more ->
         blocks
           ( Made.pathAlong
-              (At (Located (Region 0 0) (Feed 60)))
+              (At (Located (Region 0 0) (PerMinute (Feed 60))))
               [Straight (Vec.point x 0) (Vec.point (x + d) 0)]
           )
           <> blocksFrom (x + d) more

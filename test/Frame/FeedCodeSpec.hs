@@ -18,7 +18,7 @@ import Geometry.Vec qualified as Vec
 import Machine.Machine (CommandName (..), FeedCode (..), Machine)
 import Machine.Machine qualified as Machine
 import Machines qualified
-import Part.CutFeed (SpindleRate (..))
+import Part.CutFeed (CutFeed (..), SpindleRate (..))
 import Part.Part (Pace (..))
 import Part.Part qualified as Part
 import Test.Hspec
@@ -149,8 +149,8 @@ spec = do
 framesOf :: Frame.FrameProgram -> [Frame]
 framesOf = map frame . Frame.plannedFrames
 
-here :: Double -> Located Feed
-here = Located (Region 0 0) . Feed
+here :: Double -> Located CutFeed
+here = Located (Region 0 0) . PerMinute . Feed
 
 kontur :: Machine
 kontur = Machine.forTurning (Machines.named "kontur-3p")

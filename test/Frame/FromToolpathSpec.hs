@@ -19,6 +19,7 @@ import Geometry.Vec qualified as Vec
 import Machine.Machine (Machine)
 import Machine.Machine qualified as Machine
 import Machines qualified
+import Part.CutFeed (CutFeed (..))
 import Part.Part qualified as Part
 import Report.Report (ReportCode (..))
 import Report.Report qualified as Report
@@ -117,7 +118,7 @@ spec = do
                 (length . Frame.plannedFrames)
                 ( Made.program
                     lkp01f
-                    (Made.pathAlong (Part.At (Located (Region 0 0) (Feed 60))) [quarterArc])
+                    (Made.pathAlong (Part.At (Located (Region 0 0) (PerMinute (Feed 60)))) [quarterArc])
                 )
         quarter `shouldSatisfy` maybe False (< 60)
   describe "tapes" $
@@ -250,7 +251,7 @@ spec = do
       let down =
             Toolpath.Move
               (Straight (Vec.point 0 0) (Vec.point 0 0))
-              (Toolpath.Manner (Mm 0, Mm (-1)) (Part.At (Located (Region 0 0) (Feed 60))) False)
+              (Toolpath.Manner (Mm 0, Mm (-1)) (Part.At (Located (Region 0 0) (PerMinute (Feed 60)))) False)
               (Region 0 0)
               False
        in Toolpath.Toolpath

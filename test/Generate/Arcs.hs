@@ -30,6 +30,7 @@ import Geometry.Vec (Point)
 import Geometry.Vec qualified as Vec
 import Machine.Machine (Axis (..), FeedCode, Machine)
 import Machine.Machine qualified as Machine
+import Part.CutFeed qualified as CutFeed
 import Part.Part (SpacePoint (..))
 import Part.Part qualified as Part
 import Test.QuickCheck
@@ -99,9 +100,10 @@ framesOf machine at m = case Toolpath.segment m of
        in (p + sum (map increment fs), done <> fs)
     speed' = case Toolpath.pace m of
       Part.Rapid -> Machine.rapidCode machine
-      Part.At (Located _ (Feed v)) -> case Machine.choose machine v of
-        Machine.Given c _ -> c
-        Machine.NoSuchFeed _ _ -> Machine.rapidCode machine
+      Part.At (Located _ f) -> case Machine.choose machine . inMm <$> CutFeed.perMinute f of
+        Just (Machine.Given c _) -> c
+        _ -> Machine.rapidCode machine
+    inMm (Feed v) = v
     inQuadrants s = case Machine.arcs machine of
       Machine.Arcs {Machine.quadrants = True} -> quarters s
       _ -> [s]

@@ -15,6 +15,7 @@ import Generate.Pocket qualified as Pocket
 import Geometry.Polyarc (Ends (..))
 import Geometry.Polyarc qualified as Polyarc
 import Geometry.Vec qualified as Vec
+import Part.CutFeed (CutFeed (..))
 import Part.Part (Drilling (Drilling), Milling, Operation, Part, SpacePoint (..), Stop (Stop))
 import Part.Part qualified as Part
 import Test.QuickCheck
@@ -58,7 +59,7 @@ milling = do
   levels <- elements [[Mm (-1)], [Mm (-1.5), Mm (-3)], [Mm (-4)]]
   tolerance <-
     elements [Part.OnPath (Mm 0.05), Part.OnPath (Mm 0.02), Part.Band (Mm 0.02) (Mm 0.06)]
-  plunge <- elements [Nothing, Just (here (Feed 20))]
+  plunge <- elements [Nothing, Just (here (PerMinute (Feed 20)))]
   rest <- elements [Part.Refused, Part.Allowed]
   sense <- elements [Nothing, Just (here Part.Climb), Just (here Part.Conventional)]
   let m = settled (Generate.job c)
@@ -96,7 +97,7 @@ drilling = do
         Part.bottom = Mm (-deep),
         Part.travelHeight = clear,
         Part.peckDepth = peck,
-        Part.drillFeed = here (Feed 40)
+        Part.drillFeed = here (PerMinute (Feed 40))
       }
   where
     addApart p others = [p | all ((> Mm 15) . Vec.distance p) others] <> others
@@ -118,7 +119,7 @@ stops = do
     stop = do
       p <- Vec.point <$> coordinate <*> coordinate
       z <- elements [Nothing, Just clear, Just (Mm 9)]
-      pace <- elements [Part.Rapid, Part.At (here (Feed 60)), Part.At (here (Feed 80))]
+      pace <- elements [Part.Rapid, Part.At (here (PerMinute (Feed 60))), Part.At (here (PerMinute (Feed 80)))]
       pure (Stop (here p) z pace)
 
 -- | A coordinate in whole tenths of a millimetre.

@@ -28,6 +28,7 @@ import Geometry.Segment (Segment (..))
 import Geometry.Segment qualified as Segment
 import Geometry.Vec qualified as Vec
 import Geometry.WindingNumber qualified as WindingNumber
+import Part.CutFeed (CutFeed (..))
 import Part.Part (Milling (Milling), Pocketing (Pocketing))
 import Part.Part qualified as Part
 import Test.QuickCheck
@@ -114,7 +115,7 @@ pocketing before p =
             Part.gear = Nothing,
             Part.places = Generate.noPlaces,
             Part.tolerance = Part.OnPath (Mm 0.03),
-            Part.feed = here (Feed 60),
+            Part.feed = here (PerMinute (Feed 60)),
             Part.approach = [],
             Part.retract = [],
             Part.levels = [Mm (-1.5)],

@@ -28,6 +28,7 @@ import Machine.Machine (CommandName (..), FeedCode (..), Machine)
 import Machine.Machine qualified as Machine
 import Machines qualified
 import Offset.Equidistant qualified as Equidistant
+import Part.CutFeed (CutFeed (..))
 import Part.Part qualified as Part
 import Test.Hspec
 import Toolpath.FromPart qualified as Toolpath
@@ -220,7 +221,7 @@ plunging =
     (Result.output (Toolpath.toToolpath (Generate.partOf (Vec.point 0 0) (Part.Travel stops))))
   where
     stops = stop Nothing Part.Rapid :| [stop (Just (Mm (-4))) slowly, stop (Just (Mm 0)) Part.Rapid]
-    slowly = Part.At (Located (Region 0 0) (Feed 30))
+    slowly = Part.At (Located (Region 0 0) (PerMinute (Feed 30)))
     stop = Part.Stop (Located (Region 0 0) (Vec.point 10 0))
 
 -- | Toolpath along a line from (0, 0) to a point, with a cutter of radius 5 on its left; the cutter

@@ -29,6 +29,8 @@ import tempfile
 
 HERE = os.path.dirname(os.path.abspath(__file__))
 CONTROLS = ("linuxcnc-mill", "grbl", "marlin", "haas", "fanuc")
+# The control for the parts that name it.
+LATHE = "linuxcnc-lathe"
 # The control for which every part is compiled, without a warning.
 MAIN = "linuxcnc-mill"
 # The controls for which at least LEAST parts are compiled.
@@ -63,6 +65,29 @@ def is_by_hand(text):
 def tool_table(numbers):
     """A tool table of LinuxCNC, in which every tool has a length of its own."""
     return "".join(f"T{n} P{n} Z{1 + n / 4} D0.1\n" for n in sorted(set(numbers)))
+
+
+def lathe_table(text):
+    """A tool table of LinuxCNC for a turned part: offsets along X and Z, the diameter of the nose in
+    inches and the orientation of each tool, as the part has them."""
+    rows = {}
+    for line in statements(text):
+        match = re.match(
+            r"(?:tool|change)\s+(\d+)\s+turn\(nose\s+([\d.]+)(?:/(\d+))?(?:\s*mm)?,\s*tip\s+(\d)\)", line
+        )
+        if match:
+            number, nose, parts, tip = match.groups()
+            inches = float(nose) / float(parts) if parts else float(nose) / 25.4
+            rows[int(number)] = (inches, tip)
+    return "".join(
+        f"T{n} P{n} X{0.5 + n / 8} Z{1 + n / 4} D{2 * radius:.6f} Q{tip}\n"
+        for n, (radius, tip) in sorted(rows.items())
+    )
+
+
+def is_turned(text):
+    """True if a part names the lathe."""
+    return any(re.match(rf"machine\s+{LATHE}\b", line) for line in statements(text))
 
 
 def codes_of(reports):
@@ -100,7 +125,7 @@ class Trial:
         self.partc = partc
         self.has_rs274 = shutil.which("rs274") is not None
         self.mistakes, self.cells = [], {}
-        self.compiled = dict.fromkeys(CONTROLS, 0)
+        self.compiled = dict.fromkeys((*CONTROLS, LATHE), 0)
 
     def try_part(self, path, control):
         """Compiles and judges a part for one control."""
@@ -115,7 +140,7 @@ class Trial:
                 self.cells[name, control] = self.judge(path, control, files)
             else:
                 self.cells[name, control] = " ".join(codes_of(reports)) or f"status {status}"
-            if control == MAIN and (status != 0 or reports):
+            if control in (MAIN, LATHE) and (status != 0 or reports):
                 said = reports.strip() or f"the status is {status}"
                 self.mistakes.append(f"{name} for {control}: {said}")
 
@@ -141,13 +166,14 @@ class Trial:
     def complaints(self, text, control, file):
         """What the checker of a control says about a file."""
         by_hand = ["--spindle-by-hand"] if is_by_hand(text) else []
-        if control == "linuxcnc-mill":
+        if control in (MAIN, LATHE):
             if not self.has_rs274:
                 return []
             table = file + ".tbl"
             with open(table, "w", encoding="utf-8") as out:
-                out.write(tool_table(turns_of(text)))
-            checker = ["linuxcnc.py", *by_hand, file, table, "mill"]
+                out.write(tool_table(turns_of(text)) if control == MAIN else lathe_table(text))
+            kind = "mill" if control == MAIN else "lathe"
+            checker = ["linuxcnc.py", *by_hand, file, table, kind]
         elif control in ("grbl", "marlin"):
             checker = [control + ".py", "--program", *by_hand, file]
         else:
@@ -170,8 +196,9 @@ class Trial:
 def table_of(cells):
     """The table of all parts and controls: frames, with the count of files if there are several."""
     parts = sorted({part for part, _ in cells})
-    rows = [["part", *CONTROLS]]
-    rows += [[part, *(cells[part, control] for control in CONTROLS)] for part in parts]
+    controls = [*CONTROLS, *([LATHE] if any(control == LATHE for _, control in cells) else [])]
+    rows = [["part", *controls]]
+    rows += [[part, *(cells.get((part, control), "-") for control in controls)] for part in parts]
     widths = [max(len(row[column]) for row in rows) for column in range(len(rows[0]))]
     lines = ["  ".join(cell.ljust(w) for cell, w in zip(row, widths)).rstrip() for row in rows]
     return "\n".join(lines) + "\n"
@@ -204,8 +231,11 @@ def main():
         print("rs274 is missing (package linuxcnc-uspace): files for LinuxCNC are not checked")
     for name in sorted(os.listdir(options.parts)):
         if name.endswith(".part"):
-            for control in CONTROLS:
-                trial.try_part(os.path.join(options.parts, name), control)
+            path = os.path.join(options.parts, name)
+            with open(path, encoding="utf-8") as file:
+                turned = is_turned(file.read())
+            for control in (LATHE,) if turned else CONTROLS:
+                trial.try_part(path, control)
     trial.count()
     table = table_of(trial.cells)
     print(table, end="")
