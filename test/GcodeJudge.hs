@@ -13,6 +13,7 @@ module GcodeJudge
   )
 where
 
+import Control.Monad (zipWithM)
 import Data.List (isPrefixOf, nub)
 import Data.Map.Strict (Map)
 import Data.Map.Strict qualified as Map
@@ -155,13 +156,13 @@ counted f = go 0
       e : rest -> [(n, a) | Just a <- [f e]] <> go (if null (cuts [e]) then n else n + 1) rest
 
 stopsOf :: [Event] -> [(Int, Int)]
-stopsOf = counted $ \e -> case e of
+stopsOf = counted $ \case
   Stops k -> Just k
   _ -> Nothing
 
 -- | Waits, without those for the spindle.
 waitsOf :: [Event] -> [(Int, Double)]
-waitsOf = counted $ \e -> case e of
+waitsOf = counted $ \case
   Waits s False -> Just s
   _ -> Nothing
 
@@ -263,7 +264,7 @@ clearsTheSame :: Double -> [String] -> [String] -> Bool
 clearsTheSame allowed before after = case (trace before, trace after) of
   (Right old, Right new) ->
     and [kind == InPath | (kind, _) <- changes allowed old new]
-      && all (`elem` map states (cuts old)) (map states (cuts new))
+      && all ((`elem` map states (cuts old)) . states) (cuts new)
       && isInner old old new
       && isInner old new old
   _ -> False
@@ -329,13 +330,13 @@ differs most a b = case (a, b) of
 
 -- | Distance of two positions; unknown ones are far from all others.
 distance :: Place -> Place -> Double
-distance a b = maybe 1e9 (sqrt . sum) (sequence (zipWith square a b))
+distance a b = maybe 1e9 (sqrt . sum) (zipWithM square a b)
   where
     square p q = (\x y -> (x - y) * (x - y)) <$> p <*> q
 
 -- | Parts of rapid moves below the top of the material, each with the count of cuts before it.
 lowRapids :: [Event] -> [(Int, (Place, Place))]
-lowRapids = counted $ \e -> case e of
+lowRapids = counted $ \case
   Moves _ 0 from@[_, _, Just z] to@[_, _, Just z'] _ _
     | min z z' < 0, from /= to -> Just (clipped from to, clipped to from)
   _ -> Nothing
@@ -395,14 +396,14 @@ reasons allowed old new files = case filter (/= Just InForce) found of
       | a == b = Just InForce
       | heightOf b == Just above && take 2 a == take 2 b = Just StopAbove
       | otherwise = if distance a b <= allowed then Just InTolerance else Nothing
-    spins = counted $ \e -> case e of
+    spins = counted $ \case
       Waits s True -> Just s
       _ -> Nothing
     ends = take 1 . filter (`elem` ["M2", "M30"]) . map codeOf
 
 -- | States of spindle and coolant at the machine's zero of z.
 idle :: [Event] -> [(Int, ([Int], Maybe Int))]
-idle = counted $ \e -> case e of
+idle = counted $ \case
   Moves _ _ _ [_, _, Just z] _ c | z == above -> Just (coolants c, turns c)
   _ -> Nothing
 

@@ -11,10 +11,11 @@ module GcodeTrace
   )
 where
 
-import Control.Monad (foldM, when)
+import Control.Applicative ((<|>))
+import Control.Monad (foldM, unless, when)
 import Data.Char (isSpace)
 import Data.List (nub, partition, (\\))
-import Data.Maybe (fromMaybe)
+import Data.Maybe (fromMaybe, isNothing)
 import Text.Read (readMaybe)
 
 -- | State of the control; Nothing for what no line has set.
@@ -72,7 +73,7 @@ data Run = Run {control :: Control, place :: Place, isStarting :: Bool, isOver :
 trace :: [String] -> Either String [Event]
 trace file = do
   (end, events) <- foldM step (begin, []) (zip [1 ..] file)
-  when (not (isOver end)) (Left "the program does not end")
+  unless (isOver end) (Left "the program does not end")
   pure (reverse events)
   where
     begin = Run nothing [Nothing, Nothing, Nothing] False False
@@ -165,14 +166,14 @@ runLine n ws now = do
       value c = lookup c values
   when (codes /= nub codes) (Left "a code twice")
   when (any ((> 1) . length . (`only` codes)) groups) (Left "two words of a group")
-  when (not (null (codes \\ concat groups))) (Left "a word that nobody knows")
+  unless (null (codes \\ concat groups)) (Left "a word that nobody knows")
   when (map fst values /= nub (map fst values)) (Left "a letter twice")
   let changed = afterChange has value (control now)
       c = afterModes has value changed
       moved = displaced (control now) c now {control = c}
       users = userLetters has c
   when (any ((`notElem` users) . fst) values) (Left "a word that nothing uses")
-  when (has ('G', 4) && value 'P' == Nothing) (Left "a dwell without its time")
+  when (has ('G', 4) && isNothing (value 'P')) (Left "a dwell without its time")
   (ended, motion) <- moveOf n has values moved
   let starts = has ('M', 3) || has ('M', 4)
       waits = [Waits s (isStarting now || starts) | has ('G', 4), Just s <- [value 'P']]
@@ -210,7 +211,7 @@ afterChange has value c
     set =
       c
         { feed = newFeed,
-          rpm = maybe (rpm c) Just (value 'S'),
+          rpm = value 'S' <|> rpm c,
           selected = maybe (selected c) (Just . round) (value 'T')
         }
     -- F counts in the units before the line, and G94 takes the feed away.

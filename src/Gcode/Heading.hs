@@ -16,6 +16,7 @@ import Base.Name (Name (..))
 import Base.PulseVector (Pulses3 (..))
 import Base.Quantity (LengthUnit, Mm (..), Pulses (..), times)
 import Base.Region (Located (..))
+import Control.Applicative ((<|>))
 import Data.Containers.ListUtils (nubOrdOn)
 import Data.List.NonEmpty qualified as NonEmpty
 import Data.Map.Strict (Map)
@@ -105,7 +106,7 @@ fromToolpath path =
 -- description. Nothing on other controls, and if neither states one.
 safeHeightOn :: ProgramForm -> FileHeading -> Maybe Mm
 safeHeightOn form heading = case retract form of
-  SafeHeight own -> maybe own Just (safeHeight heading)
+  SafeHeight own -> safeHeight heading <|> own
   MachineHeight _ -> Nothing
   ReferencePoint -> Nothing
 

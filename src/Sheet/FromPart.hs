@@ -28,8 +28,8 @@ import Geometry.Segment (Segment)
 import Geometry.Segment qualified as Segment
 import Geometry.Vec qualified as Vec
 import Part.Curve qualified as Curve
-import Part.Link qualified as Link
 import Part.CutFeed (CutFeed (..))
+import Part.Link qualified as Link
 import Part.Part (Milling, Part)
 import Part.Part qualified as Part
 import Part.Tolerance qualified as Tolerance

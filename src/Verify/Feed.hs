@@ -18,9 +18,9 @@ import Base.Region (Located (..), Region)
 import Control.Motion (Motion (..))
 import Control.Motion qualified as Control
 import Data.Maybe (fromMaybe, listToMaybe, mapMaybe)
+import Frame.FeedCode qualified as FeedCode
 import Frame.Frame (Frame, FrameMotion (..), FrameProgram)
 import Frame.Frame qualified as Frame
-import Frame.FeedCode qualified as FeedCode
 import Machine.Machine (BrakingForm (..), FeedCode (..), FeedMeasure (..), Machine)
 import Machine.Machine qualified as Machine
 import Part.CutFeed (CutFeed)

@@ -9,6 +9,7 @@ module Generate.GcodeEdit
 where
 
 import Data.List (sort)
+import Data.Maybe (fromMaybe)
 import Numeric (showFFloat)
 import Test.QuickCheck
 import Text.Read (readMaybe)
@@ -88,7 +89,7 @@ linesExchanged file = do
 wordLost = atLine "word left out" (const True) $ \ws -> do
   k <- choose (0, length ws - 1)
   pure [take k ws <> drop (k + 1) ws]
-codeReplaced = atLine "mode or command replaced" (any (not . null . others)) $ \ws -> do
+codeReplaced = atLine "mode or command replaced" (not . all (null . others)) $ \ws -> do
   k <- elements [i | (i, w) <- zip [0 ..] ws, not (null (others w))]
   new <- elements (others (ws !! k))
   pure [take k ws <> [new] <> drop (k + 1) ws]
@@ -132,7 +133,10 @@ motionReplaced = atLine "kind of motion replaced" (any (`elem` motions)) $ \ws -
   pure [[if w `elem` motions then other new w else w | w <- ws]]
   where
     motions = ["G0", "G1", "G2", "G3"]
-    other new w = if new /= w then new else if w == "G0" then "G1" else "G0"
+    other new w
+      | new /= w = new
+      | w == "G0" = "G1"
+      | otherwise = "G0"
 numberReplaced = numberEdit "number replaced" (const (elements [-1, 0, 1, 2, 9, 99, 9999]))
 slashed = atLine "slash before a line" (const True) (\ws -> pure [["/" <> unwords ws]])
 harmless = atLine "comment, number or space" (const True) $ \ws ->
@@ -184,7 +188,7 @@ numberEdit kind changed = atLine kind (any isNumbered) $ \ws -> do
   pure [take k ws <> [take 1 word <> shown new] <> drop (k + 1) ws]
   where
     isNumbered w = take 1 w `elem` map pure (sort "FSTHDIJXYZPQ")
-    numberOf w = maybe 0 id (readMaybe (drop 1 w))
+    numberOf w = fromMaybe 0 (readMaybe (drop 1 w))
     shown v
       | v == fromIntegral (round v :: Int) = show (round v :: Int)
       | otherwise = showFFloat (Just 3) v ""
