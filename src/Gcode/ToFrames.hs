@@ -18,6 +18,7 @@ where
 import Base.PulseVector (Pulses2 (..), Pulses3 (..))
 import Base.Quantity (Mm (..), Pulses (..))
 import Base.Region (Located (Located), Region (Region))
+import Control.Applicative ((<|>))
 import Data.Bifunctor (first)
 import Data.List (foldl')
 import Data.Map.Strict (Map)
@@ -226,7 +227,7 @@ shiftedBy machine (Pulses3 dx dy _) (i, j) = (i - along X dx, j - along Y dy)
 withCommands :: FileSetting -> Step -> Converting -> Converting
 withCommands FileSetting {machine} step c = foldl' add c {commanded = now} groups
   where
-    now = stateOf (state step)
+    now = stateOf (tool (commanded c)) (state step)
     groups = CommandState.between machine (commanded c) now
     add c' ws = added machine step (Command.Translation ws False [] []) c'
 
@@ -237,12 +238,12 @@ added machine step translation c =
   where
     (full, pending') = Command.add machine (Region 0 0) translation (pending c)
 
--- | State of tool, spindle and coolant. Unknown parts count as off; "Verify.ControlState" finds
--- them.
-stateOf :: ModalState -> CommandState
-stateOf m =
+-- | State of tool, spindle and coolant. An unknown tool counts as the one before, and other unknown
+-- parts count as off; "Verify.ControlState" finds them.
+stateOf :: Maybe Int -> ModalState -> CommandState
+stateOf before m =
   CommandState
-    { tool = valueOf (toolInSpindle m),
+    { tool = valueOf (toolInSpindle m) <|> before,
       CommandState.spindle = case valueOf (Gcode.ModalState.spindle m) of
         Just (SpindleTurning sense) -> Just (senseOf sense, speedOf m)
         _ -> Nothing,

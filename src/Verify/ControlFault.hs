@@ -378,7 +378,7 @@ noFeed isUnset =
       reason =
         if isUnset
           then kept "feed"
-          else "G93, G94 and G95 set the feed to 0, and it has to be given again after them.",
+          else "F0 sets the feed to 0, and so do G93, G94 and G95 on LinuxCNC.",
       remedy = "Write the feed in the line of the cut or before it, as in G1 X10 F300."
     }
 

@@ -162,11 +162,17 @@ cutState demand step travel =
       Just (ConstantCutting (Just _)) -> []
     feedFindings = case valueOf (feedMode m) of
       Nothing -> [finding (feedMode m) (ModeUnknown FeedUnit)]
-      Just PerMinute -> [finding (feed m) NoFeed | maybe True (<= 0) (valueOf (feed m))]
+      -- Without units no feed is known, but this is a finding of its own.
+      Just PerMinute -> withoutFeed
       Just PerTurn
-        | hasTurnFeeds demand -> [finding (feed m) NoFeed | maybe True (<= 0) (valueOf (feed m))]
+        | hasTurnFeeds demand -> withoutFeed
         | otherwise -> [finding (feedMode m) NotPerMinute]
       Just InverseTime -> [finding (feedMode m) NotPerMinute]
+    withoutFeed =
+      [ finding (feed m) NoFeed
+        | isJust (valueOf (units m)),
+          maybe True (<= 0) (valueOf (feed m))
+      ]
 
 -- | Faults of the path mode and of the coolant at a motion in work coordinates, rapid moves
 -- included.

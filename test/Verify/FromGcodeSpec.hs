@@ -23,34 +23,34 @@ spec :: Spec
 spec = do
   describe "a line that is not understood" $ do
     it "has a word of an arc that no arc uses" $
-      changed "cover" "G1 X21.000" "G1 X21.000 I2" `gives` notRead 22 12 (UnusedWord "I")
+      changed "cover" "G1 X21.000" "G1 X21.000 I2" `gives` notRead 23 12 (UnusedWord "I")
     it "has the centre of an arc along the axis of its plane" $
       changed "cover" "G3 X13.000 I-2.000 J0.000" "G3 X13.000 I-2.000 K0.000"
-        `gives` notRead 20 20 (UnusedWord "K")
+        `gives` notRead 21 20 (UnusedWord "K")
     it "has a position beside a dwell: the control would move there" $
-      changed "bar" "G4 P3" "G4 P3 X15" `gives` notRead 15 7 (UnusedWord "X")
+      changed "bar" "G4 P3" "G4 P3 X15" `gives` notRead 16 7 (UnusedWord "X")
     it "has G53 without an axis" $
-      changed "bar" "G53 G0 Z0" "G53 G0" `gives` notRead 11 1 (WordMissing "Z0" "G53")
+      changed "bar" "G53 G0 Z0" "G53 G0" `gives` notRead 12 1 (WordMissing "Z0" "G53")
     it "may be left out by the operator" $
-      changed "bar" "G0 X15.000" "/G0 X15.000" `gives` notRead 21 1 (UnprovenWord "/")
+      changed "bar" "G0 X15.000" "/G0 X15.000" `gives` notRead 22 1 (UnprovenWord "/")
   describe "a fault of the state" $ do
     it "is a move to an unknown height, at the end of the file too" $
-      changedLast "bar" "G53 G0 Z0" "G53 G0 Z-50" `gives` Judged [(67, UnknownHeight)] 0
+      changedLast "bar" "G53 G0 Z0" "G53 G0 Z-50" `gives` Judged [(68, UnknownHeight)] 0
     it "is a change of the tool near the part" $
-      changed "plate" "G53 G0 Z0\nM5\nM9\nT2" "M5\nM9\nT2" `givesFault` (30, LowChange)
+      changed "plate" "G53 G0 Z0\nM5\nM9\nT2" "M5\nM9\nT2" `givesFault` (31, LowChange)
     it "is a feed that G94 has set to 0" $
       changed "cover" "G1 X21.000" "G94\nG1 X21.000"
-        `givesFault` (23, NoFeed)
+        `givesFault` (24, NoFeed)
     it "is a feed in the units of the line before" $
       changed "cover" "G1 X21.000" "G20 F7.874\nG21\nG1 X21.000" `givesOther` True
     it "is mist where the program asks for flood" $
-      changed "cover" "M8" "M7" `givesFault` (36, OtherCoolant Flood)
+      changed "cover" "M8" "M7" `givesFault` (37, OtherCoolant Flood)
     it "is a bound of the path mode that no contour allows" $
-      changed "bar" "G61" "G64 P0.01 Q0" `givesFault` (17, BoundTooLarge (Mm 0.01) (Mm 0.001))
+      changed "bar" "G61" "G64 P0.01 Q0" `givesFault` (18, BoundTooLarge (Mm 0.01) (Mm 0.001))
     it "is a path mode without a bound, at rapid moves too" $
-      changedLast "cover" "G0 Z2.000" "G64\nG0 Z2.000" `givesFault` (45, NoBound)
+      changedLast "cover" "G0 Z2.000" "G64\nG0 Z2.000" `givesFault` (46, NoBound)
     it "is a path mode with a negative Q" $
-      changed "cover" "G64 P0.020 Q0" "G64 P0.030 Q-0.010" `givesFault` (16, NoBound)
+      changed "cover" "G64 P0.020 Q0" "G64 P0.030 Q-0.010" `givesFault` (17, NoBound)
   describe "a file is accepted" $ do
     it "that waits for the spindle longer, or not at all" $ do
       changed "bar" "G4 P3" "G4 P9" `gives` Judged [] 0
