@@ -280,7 +280,8 @@ makePunched verification path machine =
       Verified -> do
         frames <- mapErrors id Tape.toReport (fromEither readBack)
         Just <$> prove machine toolpath program frames
-    warned (readerWarning unit machine punched <> beginningWarning unit machine)
+    warned (readerWarning unit machine punched)
+    when (verification == Verified) (warned (beginningWarning unit machine))
     pure Compiled {machine, toolpath, punched, proof}
   where
     toolpath = withoutCuts path

@@ -125,7 +125,7 @@ stageData =
       ("Report.Report", ["Report.Fix"]),
       ("Surface.Syntax", ["Surface.Token"]),
       ("Checked.Syntax", ["Checked.Dimension", "Checked.Type"]),
-      ("Part.Part", ["Part.Curve", "Part.Link"]),
+      ("Part.Part", ["Part.Curve", "Part.CutFeed", "Part.Link"]),
       ("Sheet.Sheet", []),
       ("Toolpath.Toolpath", []),
       ( "Machine.Machine",

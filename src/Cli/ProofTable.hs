@@ -53,7 +53,7 @@ proof unit machine p =
         ],
         ["misses its end by", axes [Decimal.whole d | Pulses d <- inOrder (Proof.closure p)]]
       ]
-        <> [ ["the control may leave the path by", Decimal.fixedInUnit unit 4 (Proof.mayLeave p)]
+        <> [ ["path mode adds", Decimal.fixedInUnit unit 4 (Proof.mayLeave p)]
              | Proof.mayLeave p > Mm 0
            ]
         <> [["verdict", if Proof.isProven p then "proven" else "WRONG"]]

@@ -40,7 +40,7 @@ data SpindleNumbers
   = NoNumber
   | -- | turns per minute
     TurnNumber Int
-  | -- | constant cutting speed in m\/min, and the limit in turns per minute; Nothing without a limit
+  | -- | constant cutting speed in m\/min, and the limit in turns per minute, if there is one
     SurfaceNumbers Int (Maybe Int)
   deriving stock (Eq, Show)
 

@@ -471,14 +471,8 @@ warningReport unit machine warning = case warning of
         InFile
         ("the proof for " <> machineName machine <> " covers the path of the cutter only")
     )
-      { message =
-          [ "It does not cover how the tool comes to the start, the length of the tool, and how \
-            \far the control rounds corners. The file does not say them."
-          ],
-        hints =
-          [ "Compile for the control that reads the file, such as linuxcnc-mill or grbl: its file \
-            \says them, and they are proven."
-          ]
+      { message = ["The way to the start, the tool length and the path mode are not in the file."],
+        hints = ["Compile for the control itself, such as linuxcnc-mill or grbl."]
       }
   ReaderTooSlow region n count ->
     ( report

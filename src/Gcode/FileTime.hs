@@ -62,7 +62,7 @@ feedAt machine rate f = case (code, Machine.turnFeeds (Machine.feeds machine)) o
   where
     code = if motion f == Rapid then Machine.rapidCode machine else feedCode f
 
--- | How fast the spindle turns after the commands of a frame.
+-- | Rate at which the spindle turns after the commands of a frame.
 rateIn :: Machine -> Frame -> Maybe SpindleRate
 rateIn machine f = case (given InMetres surfaces, given SpeedLimit surfaces, turns) of
   (v : _, limit : _, _) -> Just (CuttingSpeed (1000 * fromIntegral v) (fromIntegral limit))

@@ -1,4 +1,4 @@
--- | What a program has to say before a file for a lathe can be written, and the refusal of a
+-- | Statements that a program needs before a file for a lathe can be written, and the refusal of a
 -- program for the other kind of machine.
 module Gcode.LatheRequirement
   ( refusals,

@@ -133,27 +133,21 @@ initial dialect =
       toolLength = Unset,
       spindle = Unset,
       speed = Unset,
-      speedMode = case dialect of
-        LinuxCnc -> Unset
-        Fanuc -> Unset
-        Grbl -> fixed ConstantTurns
-        Marlin -> fixed ConstantTurns,
+      speedMode = ifFixed ConstantTurns,
       coolant = Unset,
-      pathMode = case dialect of
-        LinuxCnc -> Unset
-        Fanuc -> Unset
-        Grbl -> fixed ExactPath
-        Marlin -> fixed ExactPath,
+      pathMode = ifFixed ExactPath,
       diameters = case dialect of
         LinuxCnc -> Unset
         Grbl -> fixed False
         Marlin -> fixed False
         Fanuc -> fixed False,
-      compensates = case dialect of
-        LinuxCnc -> Unset
-        Fanuc -> Unset
-        Grbl -> fixed False
-        Marlin -> fixed False
+      compensates = ifFixed False
     }
   where
     fixed = SetAt 0
+    -- LinuxCNC and Fanuc let a program choose.
+    ifFixed a = case dialect of
+      LinuxCnc -> Unset
+      Fanuc -> Unset
+      Grbl -> fixed a
+      Marlin -> fixed a

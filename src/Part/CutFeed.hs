@@ -17,7 +17,7 @@ data CutFeed
     PerTurn Mm SpindleRate
   deriving stock (Eq, Ord, Show)
 
--- | How fast the spindle turns.
+-- | Rate at which the spindle turns.
 data SpindleRate
   = -- | not known: the spindle is off, is switched by hand, or has no speed in the program
     NoRate

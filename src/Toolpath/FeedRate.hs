@@ -1,4 +1,4 @@
--- | How fast the spindle turns at each feed for one turn.
+-- | Rate at which the spindle turns at each feed for one turn.
 --
 -- A change of the tool keeps the speed: on lathes whose tape cannot stop the spindle the part keeps
 -- turning. A control that stops it by itself asks for the speed again.

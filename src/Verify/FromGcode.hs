@@ -135,7 +135,7 @@ demandOf machine form heading program hasContours =
       Fixed 7 `elem` map Machine.value (coolantOn (Machine.commandWords machine))
     Mm resolution = Machine.resolutionOf machine Machine.Z
 
--- | What the program asks of the motions of a lathe.
+-- | Demands of the program on the motions of a lathe.
 latheDemandOf :: Machine -> FileHeading -> Lathe -> LatheDemand
 latheDemandOf machine heading form =
   LatheDemand

@@ -32,7 +32,7 @@ import Geometry.Vec qualified as Vec
 import Machine.ProgramForm (XMeaning)
 import Verify.ControlFault (ControlFault (..))
 
--- | What a program asks of the motions of a lathe.
+-- | Demands of a program on the motions of a lathe.
 data LatheDemand = LatheDemand
   { wordsOfX :: XMeaning,
     -- | segments of the turned profiles

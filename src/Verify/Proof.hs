@@ -442,12 +442,7 @@ refusalWords unit refusal = case refusal of
     Frame.BadCentre n ->
       (n, "has no centre for its arc", ["It is missing, or it is more than its fields hold."])
     Frame.NoSuchFeedCode n c ->
-      ( n,
-        "has the feed code "
-          <> Decimal.whole (Machine.codeNumber c)
-          <> ", which the machine does not know there",
-        []
-      )
+      (n, "has the feed code " <> codeText c <> ", which the machine does not know there", [])
     Frame.NoSuchMotion n ->
       ( n,
         "asks for a motion that the machine does not have",
@@ -474,6 +469,7 @@ refusalWords unit refusal = case refusal of
       ["Its end lies in the same direction from the centre as its beginning, at another distance."]
     )
   where
+    codeText = Decimal.whole . Machine.codeNumber
     axisWord a = case a of
       Machine.X -> "x"
       Machine.Y -> "y"

@@ -27,7 +27,7 @@ spec = do
     (code, out) `shouldBe` (ExitFailure 1, "")
     take 2 (lines err)
       `shouldBe` [ "error[E0809]: no report has the code ‘E0250’",
-                   "  = hint: Did you mean E0205 or E0229 or E0228?"
+                   "  = hint: Did you mean E0205 or E0520 or E0229?"
                  ]
   it "refuses a word that is not a code" $ do
     (code, out, err) <- partc ["explain", "--format", "short", "tangent"]

