@@ -50,7 +50,6 @@ import Checked.FromSurface qualified as Checked
 import Checked.Syntax qualified as Checked
 import Control.CompensationCheck qualified as CompensationCheck
 import Control.Monad (when)
-import Data.Maybe (isNothing)
 import Data.Set qualified as Set
 import Data.Text (Text)
 import Frame.Error qualified as Frame
@@ -281,18 +280,10 @@ makePunched verification path machine =
         frames <- mapErrors id Tape.toReport (fromEither readBack)
         Just <$> prove machine toolpath program frames
     warned (readerWarning unit machine punched)
-    when (verification == Verified) (warned (beginningWarning unit machine))
     pure Compiled {machine, toolpath, punched, proof}
   where
     toolpath = withoutCuts path
     unit = Toolpath.unit toolpath
-
--- | Warning of a text for a modern control whose beginning is not proven.
-beginningWarning :: LengthUnit -> Machine -> [Report]
-beginningWarning unit machine =
-  [ Frame.warningReport unit machine Frame.BeginningUnproven
-    | isNothing (Machine.pitch (Machine.medium machine))
-  ]
 
 -- | Warning of frames within a cut that the machine does not read in time (Tape → Pulse).
 readerWarning :: LengthUnit -> Machine -> Punched -> [Report]

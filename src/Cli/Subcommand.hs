@@ -50,12 +50,13 @@ import Compile qualified
 import Control.Exception (evaluate)
 import Data.ByteString (ByteString)
 import Data.List.NonEmpty qualified as NonEmpty
-import Data.Maybe (isJust, maybeToList)
+import Data.Maybe (isJust, isNothing, maybeToList)
 import Data.Text (Text)
 import Data.Text qualified as Text
 import Data.Text.Encoding qualified as Encoding
 import Draw.Plot qualified as Plot
 import Draw.TapeRows qualified as TapeRows
+import Frame.Error qualified as Frame
 import Frame.Frame (Frame)
 import Frame.Frame qualified as Frame
 import Gcode.ToFrames (GcodeReading)
@@ -140,7 +141,17 @@ compile reporter options = withInput reporter (file options) (targets options) $
       OutputFile.TapeOutput machine part (Tape (Encoding.encodeUtf8 (Writer.fileText written)))
     chosen = if unproven options then Unverified else Verified
     withWarning tapes =
-      tapes <$ Result.warned [Cli.warningReport Unproven | unproven options, _ <- tapes]
+      tapes
+        <$ Result.warned
+          ( [Cli.warningReport Unproven | unproven options, _ <- tapes]
+              <> [beginningWarning tape | not (unproven options), tape <- tapes, isBare tape]
+          )
+    -- A text for a modern control whose description has no form of programs.
+    isBare tape =
+      TapeDifference.isTextFile (Compile.machine tape)
+        && isNothing (Machine.programForm (Compile.machine tape))
+    beginningWarning tape =
+      Frame.warningReport (unitOf tape) (Compile.machine tape) Frame.BeginningUnproven
 
 -- | Reports the mistakes of a program, including frames that a machine cannot execute. The machines
 -- are those of the names or files @targets@, or else the one that the program names, if it names
