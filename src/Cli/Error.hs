@@ -79,6 +79,9 @@ data Error
 data Warning
   = -- | The tape is written without verification.
     Unproven
+  | -- | The text for a modern control has no beginning that could be proven. The name of the
+    -- machine.
+    BeginningUnproven Text
   deriving stock (Eq, Show)
 
 -- | The report of an error.
@@ -254,6 +257,16 @@ warningReport :: Warning -> Report
 warningReport warning = case warning of
   Unproven ->
     report Report.Warning "W0801" InFile "the tape is written without a proof (--no-verify)"
+  BeginningUnproven machine ->
+    ( report
+        Report.Warning
+        "W0802"
+        InFile
+        ("the proof for " <> machine <> " covers the path of the cutter only")
+    )
+      { message = ["The way to the start, the tool length and the path mode are not in the file."],
+        hints = ["Compile for the control itself, such as linuxcnc-mill or grbl."]
+      }
 
 -- | The names of the built-in machines whose controllers make pulses.
 pulseMachines :: [Text]

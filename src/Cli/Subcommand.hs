@@ -56,7 +56,6 @@ import Data.Text qualified as Text
 import Data.Text.Encoding qualified as Encoding
 import Draw.Plot qualified as Plot
 import Draw.TapeRows qualified as TapeRows
-import Frame.Error qualified as Frame
 import Frame.Frame (Frame)
 import Frame.Frame qualified as Frame
 import Gcode.ToFrames (GcodeReading)
@@ -151,7 +150,8 @@ compile reporter options = withInput reporter (file options) (targets options) $
       TapeDifference.isTextFile (Compile.machine tape)
         && isNothing (Machine.programForm (Compile.machine tape))
     beginningWarning tape =
-      Frame.warningReport (unitOf tape) (Compile.machine tape) Frame.BeginningUnproven
+      let MachineName machineName = Machine.name (Compile.machine tape)
+       in Cli.warningReport (BeginningUnproven machineName)
 
 -- | Reports the mistakes of a program, including frames that a machine cannot execute. The machines
 -- are those of the names or files @targets@, or else the one that the program names, if it names

@@ -92,8 +92,6 @@ data Warning
   | -- | frames between two feed moves that are not read in time, so that the machine stands still:
     -- the number of the first one, whose region this is, and how many there are
     ReaderTooSlow Region Int Int
-  | -- | a text for a modern control whose description has no form of programs
-    BeginningUnproven
   deriving stock (Eq, Ord, Show)
 
 -- | Kind of a command.
@@ -463,16 +461,6 @@ warningReport unit machine warning = case warning of
     )
       { message = ["So the tape does not start the spindle here."],
         hints = ["Write the speed, for example: spindle cw 800 rpm"]
-      }
-  BeginningUnproven ->
-    ( report
-        Report.Warning
-        "W0508"
-        InFile
-        ("the proof for " <> machineName machine <> " covers the path of the cutter only")
-    )
-      { message = ["The way to the start, the tool length and the path mode are not in the file."],
-        hints = ["Compile for the control itself, such as linuxcnc-mill or grbl."]
       }
   ReaderTooSlow region n count ->
     ( report

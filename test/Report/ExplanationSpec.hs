@@ -28,7 +28,7 @@ raisedElsewhere :: [(String, [Text])]
 raisedElsewhere =
   [ ("a program that no page holds", ["E0116"]),
     ("a tape or a file", ["E0601", "E0602", "E0603"]),
-    ("a tape that is made, which a check of the program does not do", ["W0507", "W0508"]),
+    ("a tape that is made, which a check of the program does not do", ["W0507"]),
     ( "an input sheet",
       [ "E0901",
         "E0902",
