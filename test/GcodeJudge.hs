@@ -44,6 +44,8 @@ data Reason
     SpindleWait
   | -- | a rapid move in the same line as the one before it, in the same direction
     DividedMove
+  | -- | a straight cut in several lines
+    DividedCut
   | -- | another way to the machine's zero of z or from there, with the same lowest points
     AboveAll
   | -- | spindle or coolant differ only while the tool is at the machine's zero of z, or after the
@@ -67,6 +69,7 @@ reasonText reason = case reason of
   OtherBound -> "another bound of the path mode, within the tolerance"
   SpindleWait -> "the wait for the spindle is longer, shorter or left out"
   DividedMove -> "a rapid move in one or more lines"
+  DividedCut -> "a straight cut in more lines"
   AboveAll -> "another way at the retract height, with the same lowest points"
   IdleState -> "spindle or coolant differ only at the retract height or after the last motion"
   StopAbove -> "a stop at the retract height, over the same point"
@@ -79,6 +82,9 @@ verdict :: Double -> [String] -> [String] -> Verdict
 verdict allowed before after = case (trace before, trace after) of
   (Left why, _) -> Changed ("the file before the edit is not understood: " <> why)
   (_, Left why) -> Changed why
+  -- A straight cut in several lines is the same cut.
+  (Right old, Right new)
+    | joinedCuts new /= new, joinedCuts new `sameBut` joinedCuts old -> Same [Just DividedCut]
   (Right old, Right new) -> case changes allowed old new of
     (_, why) : _ -> Changed why
     []
@@ -89,6 +95,30 @@ verdict allowed before after = case (trace before, trace after) of
     dropNumber line = case words line of
       ('N' : _) : rest -> unwords rest
       ws -> unwords ws
+
+-- | Events in which cuts in one direction, at the same feed and in the same state, are one cut.
+joinedCuts :: [Event] -> [Event]
+joinedCuts events = case events of
+  Moves n 1 from mid Nothing s : Moves _ 1 mid' to Nothing s' : rest
+    | mid == mid', s == s', isBetween from mid to -> joinedCuts (Moves n 1 from to Nothing s : rest)
+  e : rest -> e : joinedCuts rest
+  [] -> []
+  where
+    isBetween a b c = case (sequence a, sequence b, sequence c) of
+      (Just p, Just q, Just r) ->
+        let part = zipWith (-) q p
+            whole = zipWith (-) r p
+            square = sum (map (^ (2 :: Int)) whole)
+            share = sum (zipWith (*) part whole) / square
+         in square > 0
+              && share > 0
+              && share < 1
+              && and (zipWith (\d w -> abs (d - share * w) < 1.0e-6) part whole)
+      _ -> False
+
+-- | Test that events are the same, but for the numbers of their lines.
+sameBut :: [Event] -> [Event] -> Bool
+sameBut new old = length new == length old && withLines old new == old
 
 -- | Events with the numbers of lines of others.
 withLines :: [Event] -> [Event] -> [Event]
