@@ -73,7 +73,7 @@ def lathe_table(text):
     rows = {}
     for line in statements(text):
         match = re.match(
-            r"(?:tool|change)\s+(\d+)\s+turn\(nose\s+([\d.]+)(?:/(\d+))?(?:\s*mm)?,\s*tip\s+(\d)\)", line
+            r"(?:tool|change)\s+(\d+)\s+turn\(nose\s+([\d.]+)(?:\s*/\s*(\d+))?(?:\s*mm)?,\s*tip\s+(\d)\)", line
         )
         if match:
             number, nose, parts, tip = match.groups()
