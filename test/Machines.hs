@@ -17,10 +17,11 @@ where
 
 import Base.Crash (bug)
 import Base.Result qualified as Result
-import Data.Maybe (fromMaybe)
+import Data.Maybe (fromMaybe, isNothing)
 import Data.Text (Text)
 import Machine.BuiltIn qualified as BuiltIn
 import Machine.Machine (Machine, MachineName (..))
+import Machine.Machine qualified as Machine
 import Project.Job (Job (..), Verification (..))
 import Project.LoadedProgram (LoadedProgram (descriptions))
 import Project.Target qualified as Target
@@ -39,9 +40,9 @@ kontur3p = named "kontur-3p"
 n55 = named "n55"
 iso6983 = named "iso6983"
 
--- | All built-in machines.
+-- | All built-in machines whose tapes consist of their frames only.
 known :: [Machine]
-known = BuiltIn.machines
+known = filter (isNothing . Machine.programForm) BuiltIn.machines
 
 -- | A job that makes a verified tape for this machine, whichever machine the program names.
 jobFor :: Machine -> [(Text, Text)] -> Job

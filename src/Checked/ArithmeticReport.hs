@@ -100,7 +100,7 @@ pointsAddedReport region left right half =
 unknownUnitReport :: Region -> Numeral -> Unit -> Text -> Maybe Double -> Report
 unknownUnitReport region n unit word known =
   (at region "E0201" (quote (unitName unit <> "/" <> word) <> " is no unit of the language"))
-    { message = ["A feed is given for a minute or for a turn: mm/min, m/min, in/min, mm/rev, in/rev."],
+    { message = ["A feed is given for a minute or a turn: mm/min, m/min, in/min, mm/rev, in/rev."],
       fixes =
         [ Fix.exchange ("Write " <> perMinute 60 <> ".") region (perMinute 60)
           | word `elem` secondWords

@@ -470,10 +470,7 @@ refusalWords unit refusal = case refusal of
     )
   where
     codeText = Decimal.whole . Machine.codeNumber
-    axisWord a = case a of
-      Machine.X -> "x"
-      Machine.Y -> "y"
-      Machine.Z -> "z"
+    axisWord a = Machine.contentName (Machine.Along a)
 
 -- | Name of a rotary axis.
 rotaryWord :: RotaryAxis -> Text
