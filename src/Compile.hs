@@ -56,6 +56,7 @@ import Frame.Error qualified as Frame
 import Frame.Frame (FrameProgram)
 import Frame.Frame qualified as Frame
 import Frame.FromToolpath qualified as Frame
+import Frame.TurnFeed qualified as TurnFeed
 import Gcode.FaultReport qualified as FaultReport
 import Gcode.Heading qualified as Heading
 import Gcode.Requirement qualified as Requirement
@@ -342,7 +343,14 @@ withFiles machine files program =
   Punched
     { program,
       tape =
-        Tape.write machine (Frame.start program) (map Frame.frame (Frame.plannedFrames program)),
+        Tape.write
+          machine
+          (Frame.start program)
+          ( TurnFeed.perMinute
+              machine
+              (Frame.start program)
+              (map Frame.frame (Frame.plannedFrames program))
+          ),
       files
     }
 

@@ -64,21 +64,14 @@ frames unit machine source program = table columns rows
         <> [Column ToRight "line" (lineWord source . planned)]
         <> map (via (frame . planned)) (commandColumns all')
     endOf n = Frame.position machine (to n)
-    feedOf n =
-      maybe
-        ""
-        (feedWord unit)
-        ( FeedCode.feedOf
-            machine
-            (frame (planned n))
-            (FeedCode.frameLength machine (frame (planned n)))
-        )
+    feedOf n = feedWord unit machine (frame (planned n))
     coordinate = Decimal.fixedIn unit 3 . Mm
     feedTitle = Decimal.unitText unit <> "/min"
 
 -- | The frames of a program as JSON, one object on each line. Every object has all fields, except
--- that only arcs have @centre@, and only frames of machines with rotary axes have @turn@; a feed
--- that is not known is @null@.
+-- that only arcs have @centre@, only frames of machines with rotary axes have @turn@, and only
+-- frames with a feed for one turn of the spindle have @feedPerTurn@, in mm; a feed that is not
+-- known is @null@.
 framesJson :: Machine -> Source -> FrameProgram -> Text
 framesJson machine source program = Text.concat (map row (numbered program))
   where
@@ -107,6 +100,7 @@ framesJson machine source program = Text.concat (map row (numbered program))
                           ),
                      "line" .= lineOf source (planned n)
                    ]
+                <> ["feedPerTurn" .= d | Just d <- [Machine.forTurn machine (feedCode f)]]
             )
     jsonLine pairs =
       Encoding.decodeUtf8
@@ -138,12 +132,7 @@ decoded machine fs = table columns (zip [1 :: Int ..] fs)
              Column
                ToRight
                "mm/min"
-               ( \(_, f) ->
-                   maybe
-                     ""
-                     (feedWord Millimetres)
-                     (FeedCode.feedOf machine f (FeedCode.frameLength machine f))
-               )
+               (feedWord Millimetres machine . snd)
            ]
         <> map (via snd) (brakeColumn fs <> commandColumns fs)
 
@@ -248,5 +237,12 @@ roleWord r = case r of
 speedWord :: Frame -> Text
 speedWord = Decimal.whole . Machine.codeNumber . feedCode
 
-feedWord :: LengthUnit -> Feed -> Text
-feedWord unit (Feed f) = Decimal.shortIn unit 2 (Mm f)
+-- | Feed of a frame: per minute, or with a stroke the feed for one turn of the spindle.
+feedWord :: LengthUnit -> Machine -> Frame -> Text
+feedWord unit machine f = case Machine.forTurn machine (feedCode f) of
+  Just d -> Decimal.shortIn unit 4 (Mm d) <> "/rev"
+  Nothing ->
+    maybe
+      ""
+      (\(Feed v) -> Decimal.shortIn unit 2 (Mm v))
+      (FeedCode.feedOf machine f (FeedCode.frameLength machine f))

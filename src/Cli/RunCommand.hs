@@ -42,6 +42,7 @@ import Draw.TimeColumn qualified as TimeColumn
 import Draw.Timeline qualified as Timeline
 import Frame.Frame (Frame, FrameProgram (plannedFrames))
 import Frame.Frame qualified as Frame
+import Frame.TurnFeed qualified as TurnFeed
 import Machine.Controller (Controller (..), IntegratorControl (override, switches))
 import Machine.Machine (Machine, MachineName (..))
 import Machine.Machine qualified as Machine
@@ -103,7 +104,7 @@ inFrames :: FilePath -> Machine -> Tape -> Either (Source, Report) Tape
 inFrames file machine rows = case Machine.programForm machine of
   Nothing -> Right rows
   Just form ->
-    Tape.write machine 0 . FromGcode.framesRead
+    Tape.write machine 0 . TurnFeed.perMinute machine 0 . FromGcode.framesRead
       <$> GcodeFile.readAlone
         machine
         form

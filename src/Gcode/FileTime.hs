@@ -13,69 +13,27 @@ import Data.Maybe (fromMaybe)
 import Data.Text (Text)
 import Frame.Frame (Frame (..), FrameMotion (Rapid))
 import Frame.Frame qualified as Frame
+import Frame.TurnFeed qualified as TurnFeed
 import Geometry.Segment qualified as Segment
-import Geometry.Vec qualified as Vec
-import Machine.Machine
-  ( CommandValue (..),
-    CommandWord (..),
-    CommandWords (..),
-    FeedCode (..),
-    Machine,
-    TurnFeeds (turnDecimals),
-  )
+import Machine.Machine (Machine)
 import Machine.Machine qualified as Machine
-import Part.CutFeed (SpindleRate (..))
-import Part.CutFeed qualified as CutFeed
 
--- | State between two frames: the position in pulses, how fast the spindle turns, and the time so
--- far.
-data Timing = Timing {at :: Pulses3, turns :: SpindleRate, passed :: Double}
-
--- | Time of frames. @begin@ is the position before the first frame, in pulses.
+-- | Time of frames. @begin@ is the position before the first frame, in pulses. Feeds for one turn of
+-- the spindle count at the speed that the spindle has there.
 timeOf :: Machine -> Pulses3 -> [Frame] -> Seconds
-timeOf machine begin frames = Seconds (passed (foldl' add (Timing begin NoRate 0) frames))
+timeOf machine begin = snd . foldl' add (begin, Seconds 0) . TurnFeed.perMinute machine begin
   where
-    add now f =
-      let end = at now + increment f
-          rate = fromMaybe (turns now) (rateIn machine f)
-          Seconds more = if Frame.isMoving f then frameTime end rate now f else Seconds 0
-       in Timing {at = end, turns = rate, passed = passed now + more}
-    frameTime end rate now f =
-      let Mm flat = Segment.length (Frame.segment machine (at now) f)
-          Mm rise = minus (Frame.height machine end) (Frame.height machine (at now))
-          l = Mm (sqrt (flat * flat + rise * rise))
-       in case feedAt machine (CutFeed.turnsAt (meanRadius end now) rate) f of
-            Feed v | v > 0 -> travelTime l (Feed v)
-            _ -> Seconds 0
-
-    -- On a lathe y is the radius.
-    meanRadius end now =
-      let begin' = Frame.position machine (at now)
-          end' = Frame.position machine end
-       in Mm (abs (Vec.y begin' + Vec.y end') / 2)
-
--- | Feed of a frame in mm\/min while the spindle turns so often in a minute; 0 if it is not known.
-feedAt :: Machine -> Double -> Frame -> Feed
-feedAt machine rate f = case (code, Machine.turnFeeds (Machine.feeds machine)) of
-  (TurnCode n, Just t) -> Feed (rate * fromIntegral n / 10 ^ turnDecimals t)
-  _ -> Feed (fromMaybe 0 (Machine.valueOf machine code))
-  where
-    code = if motion f == Rapid then Machine.rapidCode machine else feedCode f
-
--- | Rate at which the spindle turns after the commands of a frame.
-rateIn :: Machine -> Frame -> Maybe SpindleRate
-rateIn machine f = case (given InMetres surfaces, given SpeedLimit surfaces, turns) of
-  (v : _, limit : _, _) -> Just (CuttingSpeed (1000 * fromIntegral v) (fromIntegral limit))
-  (_, _, n : _) -> Just (TurnsPerMinute (fromIntegral n))
-  _ -> Nothing
-  where
-    turns = given Argument plain
-    table = Machine.commandWords machine
-    plain = spindleClockwise table <> spindleCounterClockwise table
-    surfaces = surfaceClockwise table <> surfaceCounterClockwise table
-    given :: CommandValue -> [CommandWord] -> [Int]
-    given source ws =
-      [n | w <- ws, value w == source, Just n <- [lookup (commandName w) (commands f)]]
+    add (at, Seconds t) f =
+      let end = at + increment f
+          Seconds more = if Frame.isMoving f then frameTime at end f else Seconds 0
+       in at `seq` (end, Seconds (t + more))
+    frameTime at end f =
+      let Mm flat = Segment.length (Frame.segment machine at f)
+          Mm rise = minus (Frame.height machine end) (Frame.height machine at)
+          code = if motion f == Rapid then Machine.rapidCode machine else feedCode f
+       in travelTime
+            (Mm (sqrt (flat * flat + rise * rise)))
+            (Feed (fromMaybe 0 (Machine.valueOf machine code)))
 
 -- | Time in minutes and seconds, rounded up to whole seconds.
 timeText :: Seconds -> Text

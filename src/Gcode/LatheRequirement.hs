@@ -114,7 +114,7 @@ toolFaults machine fault = case fault of
                 <> (if n > 0 then Decimal.whole n <> " " else "")
                 <> "turn(nose "
                 <> Decimal.mm (Part.cutterRadius cutter)
-                <> " mm, tip "
+                <> ", tip "
                 <> (if Part.cutterRadius cutter == Mm 0 then "9" else "2")
                 <> ")’."
             ]

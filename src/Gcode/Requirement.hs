@@ -34,12 +34,14 @@ import Toolpath.Toolpath qualified as Toolpath
 refusals :: Machine -> ProgramForm -> FileHeading -> Toolpath -> FrameProgram -> [Report]
 refusals machine form heading path program =
   spindleErrors machine heading path
-    <> [withoutHeights machine path | Toolpath.isFlat path && not (Toolpath.isTurned path)]
+    <> [withoutHeights machine path | isNothing (lathe form), isFlatMilling]
     <> lowStart machine path program
     <> toolErrors machine form heading path
     <> safeErrors machine form heading path program
     <> LatheRequirement.refusals machine form path
     <> [boxError machine region | BoxPath <- [rapidPath form], region <- take 1 (boxMoves path)]
+  where
+    isFlatMilling = Toolpath.isFlat path && not (Toolpath.isTurned path)
 
 machineName :: Machine -> Text
 machineName machine = let MachineName n = Machine.name machine in n

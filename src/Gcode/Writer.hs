@@ -41,7 +41,6 @@ import Machine.Machine
     MachineName (..),
     NumberForm (decimals, digits),
     ProgramForm (..),
-    TurnFeeds (..),
     Word' (address),
   )
 import Machine.Machine qualified as Machine
@@ -510,9 +509,7 @@ motionText context@Context {machine} end f = Text.unwords (motionWord : axisWord
 feedNumber :: Context -> FeedCode -> Text
 feedNumber Context {machine, form} code = case code of
   FeedCode n -> decimalText places n <> (if dialect form == Fanuc && places == 0 then "." else "")
-  TurnCode n ->
-    let d = maybe 0 turnDecimals (Machine.turnFeeds (Machine.feeds machine))
-     in Decimal.short d (fromIntegral n / 10 ^ d)
+  TurnCode _ -> maybe "" (Decimal.short 6) (Machine.forTurn machine code)
   where
     places = maybe 0 (decimals . Machine.form) (Machine.wordFor machine FeedWord)
 

@@ -67,6 +67,7 @@ module Machine.Machine
     chooseTurn,
     codeNumber,
     hasFeedCode,
+    forTurn,
     valueOf,
     rapidCode,
     slowest,
@@ -408,6 +409,13 @@ codeNumber :: FeedCode -> Int
 codeNumber code' = case code' of
   FeedCode n -> n
   TurnCode n -> n
+
+-- | Feed in mm for one turn of the spindle that a code means; Nothing for a feed per minute.
+forTurn :: Machine -> FeedCode -> Maybe Double
+forTurn machine code' = case (code', turnFeeds (feeds machine)) of
+  (TurnCode n, Just t) -> Just (fromIntegral n / 10 ^ turnDecimals t)
+  (TurnCode _, Nothing) -> Nothing
+  (FeedCode _, _) -> Nothing
 
 -- | True if the machine has a feed code.
 hasFeedCode :: Machine -> FeedCode -> Bool

@@ -483,11 +483,9 @@ speed unit machine s =
     <> (if braking s then ", braking" else "")
   where
     feed = "speed " <> Decimal.whole (Machine.codeNumber (code s)) <> meaning
-    meaning = case (code s, Machine.turnFeeds (Machine.feeds machine)) of
-      (Machine.TurnCode n, Just f) ->
-        let d = Machine.turnDecimals f
-         in " (" <> Decimal.short d (fromIntegral n / 10 ^ d) <> " mm/rev)"
-      _ ->
+    meaning = case Machine.forTurn machine (code s) of
+      Just d -> " (" <> Decimal.shortIn unit 4 (Mm d) <> " " <> Decimal.unitText unit <> "/rev)"
+      Nothing ->
         maybe
           ""
           (\v -> " (" <> measured v <> ")")

@@ -90,6 +90,7 @@ words' = do
     labels (drawn <> "mill rim ^") `shouldBe` ["outside", "inside", "left", "right", "on"]
     labels "part p\ncontour a ^" `shouldBe` ["closed", "open"]
     labels "part p\nspindle ^" `shouldBe` ["cw", "ccw", "off", "manual"]
+    labels "part p\nlet v = 180 m/min\nspindle cw v ^" `shouldBe` ["limit"]
     labels "part p\noptional ^" `shouldBe` ["stop"]
     labels "part p\nlet n = 2\ndwell n ^" `shouldBe` ["s"]
     labels "part p\nchange 2 mill(diameter 5) ^" `shouldBe` ["at"]

@@ -1,0 +1,66 @@
+-- | Frames with feeds per minute in place of feeds for one turn of the spindle, for estimates of
+-- times and for models of controllers. The spindle is taken to have the same speed along the whole
+-- frame: at a constant cutting speed, that in the middle between the radii at the two ends.
+module Frame.TurnFeed
+  ( perMinute,
+  )
+where
+
+import Base.PulseVector (Pulses3)
+import Base.Quantity (Mm (..))
+import Data.List (mapAccumL)
+import Data.Maybe (fromMaybe)
+import Frame.Frame (Frame (..))
+import Frame.Frame qualified as Frame
+import Geometry.Vec qualified as Vec
+import Machine.Machine
+  ( CommandValue (..),
+    CommandWord (..),
+    CommandWords (..),
+    FeedChoice (..),
+    FeedCode,
+    Machine,
+  )
+import Machine.Machine qualified as Machine
+import Part.CutFeed (SpindleRate (..))
+import Part.CutFeed qualified as CutFeed
+
+-- | The frames with feeds per minute. @begin@ is the position before the first frame, in pulses.
+perMinute :: Machine -> Pulses3 -> [Frame] -> [Frame]
+perMinute machine begin frames = snd (mapAccumL next (begin, NoRate) frames)
+  where
+    next (at, rate) f =
+      let end = at + increment f
+          rate' = fromMaybe rate (rateIn machine f)
+          turns = CutFeed.turnsAt (meanRadius machine at end) rate'
+       in at `seq` ((end, rate'), maybe f (inMinutes f turns) (Machine.forTurn machine (feedCode f)))
+    inMinutes f turns d = f {feedCode = codeFor machine (turns * d)}
+
+-- | Code of the feed in mm\/min that is nearest to the one asked for.
+codeFor :: Machine -> Double -> FeedCode
+codeFor machine v = case Machine.choose machine v of
+  Given code _ -> code
+  NoSuchFeed low high -> case Machine.choose machine (if v < low then low else high) of
+    Given code _ -> code
+    NoSuchFeed _ _ -> fst (Machine.slowest machine)
+
+-- | Radius in the middle between two positions: y is the distance from the axis of the spindle.
+meanRadius :: Machine -> Pulses3 -> Pulses3 -> Mm
+meanRadius machine a b = Mm (abs (radius a + radius b) / 2)
+  where
+    radius = Vec.y . Frame.position machine
+
+-- | Rate at which the spindle turns after the commands of a frame.
+rateIn :: Machine -> Frame -> Maybe SpindleRate
+rateIn machine f = case (given InMetres surfaces, given SpeedLimit surfaces, turns) of
+  (v : _, limit : _, _) -> Just (CuttingSpeed (1000 * fromIntegral v) (fromIntegral limit))
+  (_, _, n : _) -> Just (TurnsPerMinute (fromIntegral n))
+  _ -> Nothing
+  where
+    turns = given Argument plain
+    table = Machine.commandWords machine
+    plain = spindleClockwise table <> spindleCounterClockwise table
+    surfaces = surfaceClockwise table <> surfaceCounterClockwise table
+    given :: CommandValue -> [CommandWord] -> [Int]
+    given source ws =
+      [n | w <- ws, value w == source, Just n <- [lookup (commandName w) (commands f)]]
