@@ -67,8 +67,11 @@ data ToolPlace = ToolPlace {placeX :: Coordinate, placeY :: Coordinate, placeZ :
 
 -- | Position along one axis.
 data Coordinate
-  = -- | unknown: where the machine stands, or a position in machine coordinates
+  = -- | unknown: where the machine stands
     Anywhere
+  | -- | in machine coordinates, in picometres; Nothing for the reference point. It is not known where
+    -- this is in the work
+    InMachine (Maybe Int)
   | -- | the retract height, above everything
     Retracted
   | -- | in work coordinates, in picometres
@@ -148,13 +151,17 @@ sorted form b = do
   ms <- codes 'M' (mKnowledge (dialect form)) groupOfM
   let others = [w | w <- gcodeWords b, letter w `notElem` ("GMN" :: String)]
   forM_ (gcodeWords b) $ \w ->
-    unless (letter w `elem` letters (dialect form)) (faultOf b w (UnknownWord (wordText w)))
+    unless
+      (letter w `elem` letters (dialect form) && not (isJust (lathe form) && letter w `elem` noLathe))
+      (faultOf b w (UnknownWord (wordText w)))
   forM_ (zip [0 ..] others) $ \(k, w) ->
     when
       (letter w `elem` map letter (take k others))
       (faultOf b w (RepeatedWord (Text.singleton (letter w))))
   pure Sorted {block = b, gCodes = gs, mCodes = ms, others}
   where
+    -- A lathe has no axis Y.
+    noLathe = "YJ" :: String
     codes c knowledge group = do
       let found = [w | w <- gcodeWords b, letter w == c]
       numbers <- traverse (code knowledge) found
@@ -339,7 +346,7 @@ motionAfter s m
 placeAfter :: ProgramForm -> ModalState -> ModalState -> ToolPlace -> ToolPlace
 placeAfter form before after p
   | valueOf (workOffset after) /= valueOf (workOffset before) =
-    withoutHeight {placeX = Anywhere, placeY = Anywhere}
+    withoutHeight {placeX = moved (placeX p), placeY = moved (placeY p)}
   | valueOf (toolLength after) /= valueOf (toolLength before) =
     -- The tool table of a lathe has a length along X too.
     if isJust (lathe form) then withoutHeight {placeX = moved (placeX p)} else withoutHeight
@@ -348,6 +355,7 @@ placeAfter form before after p
     withoutHeight = p {placeZ = moved (placeZ p)}
     moved c = case c of
       At _ -> Anywhere
+      InMachine q -> InMachine q
       Retracted -> Retracted
       Anywhere -> Anywhere
 
@@ -449,9 +457,10 @@ targetOf form s now = ToolPlace <$> along 'X' placeX <*> along 'Y' placeY <*> al
       | c == 'X',
         Just Lathe {crossRetract = Mm h} <- lathe form,
         isJust (valueOf (diameters m)),
+        isJust (valueOf (units m)) || digits k == 0,
         abs (picometres (value c k) - h) < 1.0e-6 =
         Right Retracted
-      | otherwise = Right Anywhere
+      | otherwise = Right (InMachine (Just (value c k)))
 
 -- | Carries out G28: the axes that the line names go to the reference point. Only G28 with
 -- increments of 0 is understood, because any other goes through another point first.
@@ -470,8 +479,8 @@ toReference form s now
     p = place now
     target =
       ToolPlace
-        (if names 'X' then Anywhere else placeX p)
-        (if names 'Y' then Anywhere else placeY p)
+        (if names 'X' then InMachine Nothing else placeX p)
+        (if names 'Y' then InMachine Nothing else placeY p)
         (if names 'Z' then Retracted else placeZ p)
     travel = Travel RapidMode p target Nothing
 

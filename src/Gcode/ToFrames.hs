@@ -357,6 +357,7 @@ inPulses machine place = do
       | otherwise = case coordinate (letterOf machine axis) of
         At p -> Just (nearest machine axis p)
         Retracted -> Nothing
+        InMachine _ -> Nothing
         Anywhere -> Nothing
     coordinate c = case c of
       'X' -> placeX place

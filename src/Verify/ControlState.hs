@@ -205,6 +205,7 @@ isWorking travel = any (isAt . placeZ) [from travel, to travel]
 isAt :: Coordinate -> Bool
 isAt c = case c of
   At _ -> True
+  InMachine _ -> False
   Retracted -> False
   Anywhere -> False
 
@@ -213,6 +214,7 @@ isAbove :: StateDemand -> Coordinate -> Bool
 isAbove demand z = case z of
   Retracted -> True
   At h -> maybe False (h >=) (level demand)
+  InMachine _ -> False
   Anywhere -> False
 
 -- | True for a place at which the tool may be changed: above everything, or on a lathe with x or z
@@ -229,7 +231,7 @@ unsafeMoves demand step travel
   | isKnown (from travel) && isKnown (to travel) =
     [bad UnsafeMove | isOutside (from travel) /= isOutside (to travel), not isAloneZ]
       <> [bad BoxMove | mode travel == RapidMode, Just free <- [boxLevel demand], isBox free]
-  | isAloneZ && placeZ (to travel) == Anywhere = [bad UnknownHeight]
+  | isAloneZ && isUnknown (placeZ (to travel)) = [bad UnknownHeight]
   | isAloneZ = [bad UnsafeDescent | comesDown && not (hasPlane (to travel))]
   | isAbove demand (placeZ (from travel)) && placeZ (from travel) == placeZ (to travel) = []
   | otherwise = [bad UnsafeMove]
@@ -248,6 +250,12 @@ unsafeMoves demand step travel
     comesDown = case placeZ (to travel) of
       At z -> maybe True (z <) (level demand)
       Retracted -> False
+      InMachine _ -> True
+      Anywhere -> True
+    isUnknown z = case z of
+      At _ -> False
+      Retracted -> False
+      InMachine _ -> True
       Anywhere -> True
     isKnown p = hasPlane p && isAt (placeZ p)
     isOutside = isAbove demand . placeZ

@@ -59,6 +59,7 @@ isKnown p = isAt (placeX p) && isAt (placeZ p)
 isAt :: Coordinate -> Bool
 isAt c = case c of
   At _ -> True
+  InMachine _ -> False
   Retracted -> False
   Anywhere -> False
 
@@ -78,14 +79,12 @@ faults demand step travel
     crossing = [ThroughProfile | any (crosses demand step) (passages begin finish)]
     stepOfX = case (placeX begin, placeX finish, placeZ finish) of
       (_, Retracted, _) -> crossing
-      (_, Anywhere, _) -> [LatheOrder]
       (_, At _, Retracted) -> []
       (Retracted, At _, At _) -> crossing
-      (Retracted, At _, Anywhere) -> [LatheOrder]
-      (_, At _, _) -> [LatheOrder]
+      (_, _, _) -> [LatheOrder]
     stepOfZ = case (placeZ begin, placeZ finish, placeX finish) of
-      (_, Anywhere, _) -> [LatheOrder]
-      (_, _, Retracted) -> []
+      (_, At _, Retracted) -> []
+      (_, Retracted, Retracted) -> []
       (At _, Retracted, At _) -> crossing
       (Retracted, At _, At _) -> crossing
       (_, _, _) -> [LatheOrder]

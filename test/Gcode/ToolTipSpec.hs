@@ -288,6 +288,7 @@ motionOf travel = Motion kindOf (known (placeZ end), known (placeX end)) centre'
     known c = case c of
       At p -> Just (Run.picometres p)
       Retracted -> Nothing
+      InMachine _ -> Nothing
       Anywhere -> Nothing
     centre' = (\(a, b) -> (Run.picometres a, Run.picometres b)) <$> about travel
 

@@ -30,8 +30,10 @@ spec = describe "ways of a lathe to its retract positions" $ do
     faultsOf 1 (leaving <> ["G0 X60 Z10"]) `shouldBe` [LatheOrder]
   it "do not lead to a place where Z is not known" $
     faultsOf 1 ["G53 G0 X0", "G0 X60"] `shouldBe` [LatheOrder]
-  it "do not lead to other places of the machine" $
+  it "do not lead to other places of the machine" $ do
     faultsOf 1 ["G53 G0 X-30"] `shouldBe` [LatheOrder]
+    faultsOf 1 ["G53 G0 X0 Z-50"] `shouldBe` [LatheOrder]
+    faultsOf 1 (leaving <> ["G53 G0 Z-50"]) `shouldBe` [LatheOrder]
   it "are Z and then X in a bore, and back" $
     faultsOf 2 (leaving <> ["G0 X20", "G0 Z-10", "G53 G0 Z0", "G53 G0 X0"]) `shouldBe` []
   it "do not pass through a bore along X" $ do
