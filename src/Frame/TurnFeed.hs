@@ -33,8 +33,9 @@ perMinute machine begin frames = snd (mapAccumL next (begin, NoRate) frames)
       let end = at + increment f
           rate' = fromMaybe rate (rateIn machine f)
           turns = CutFeed.turnsAt (meanRadius machine at end) rate'
-       in at `seq` ((end, rate'), maybe f (inMinutes f turns) (Machine.forTurn machine (feedCode f)))
-    inMinutes f turns d = f {feedCode = codeFor machine (turns * d)}
+          code = maybe (feedCode f) (inMinutes turns) (Machine.forTurn machine (feedCode f))
+       in at `seq` ((end, rate'), f {feedCode = code})
+    inMinutes turns d = codeFor machine (turns * d)
 
 -- | Code of the feed in mm\/min that is nearest to the one asked for.
 codeFor :: Machine -> Double -> FeedCode

@@ -18,8 +18,8 @@ import Geometry.Segment qualified as Segment
 import Machine.Machine (Machine)
 import Machine.Machine qualified as Machine
 
--- | Time of frames. @begin@ is the position before the first frame, in pulses. Feeds for one turn of
--- the spindle count at the speed that the spindle has there.
+-- | Time of frames. @begin@ is the position before the first frame, in pulses. Feeds for one turn
+-- of the spindle count at the speed that the spindle has there.
 timeOf :: Machine -> Pulses3 -> [Frame] -> Seconds
 timeOf machine begin = snd . foldl' add (begin, Seconds 0) . TurnFeed.perMinute machine begin
   where

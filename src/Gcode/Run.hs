@@ -69,8 +69,8 @@ data ToolPlace = ToolPlace {placeX :: Coordinate, placeY :: Coordinate, placeZ :
 data Coordinate
   = -- | unknown: where the machine stands
     Anywhere
-  | -- | in machine coordinates, in picometres; Nothing for the reference point. It is not known where
-    -- this is in the work
+  | -- | in machine coordinates, in picometres; Nothing for the reference point. It is not known
+    -- where this is in the work
     InMachine (Maybe Int)
   | -- | the retract height, above everything
     Retracted
@@ -152,7 +152,7 @@ sorted form b = do
   let others = [w | w <- gcodeWords b, letter w `notElem` ("GMN" :: String)]
   forM_ (gcodeWords b) $ \w ->
     unless
-      (letter w `elem` letters (dialect form) && not (isJust (lathe form) && letter w `elem` noLathe))
+      (letter w `elem` letters (dialect form) && not (isJust (lathe form) && isOfY w))
       (faultOf b w (UnknownWord (wordText w)))
   forM_ (zip [0 ..] others) $ \(k, w) ->
     when
@@ -161,7 +161,7 @@ sorted form b = do
   pure Sorted {block = b, gCodes = gs, mCodes = ms, others}
   where
     -- A lathe has no axis Y.
-    noLathe = "YJ" :: String
+    isOfY w = letter w `elem` ("YJ" :: String)
     codes c knowledge group = do
       let found = [w | w <- gcodeWords b, letter w == c]
       numbers <- traverse (code knowledge) found
