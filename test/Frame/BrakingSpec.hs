@@ -13,7 +13,7 @@ import Geometry.Segment (Segment (Straight))
 import Geometry.Segment qualified as Segment
 import Geometry.Vec (Point)
 import Geometry.Vec qualified as Vec
-import Machine.Machine (FeedCode (..), Machine)
+import Machine.Machine (Machine)
 import Machine.Machine qualified as Machine
 import Machines qualified
 import Part.CutFeed (CutFeed (..))
@@ -89,7 +89,7 @@ spec = do
   where
     brief f = (pulses f, code f, braking f)
     pulses f = let Pulses3 x y z = abs (increment f) in fromIntegral (x + y + z) :: Int
-    code f = let FeedCode n = feedCode f in n
+    code f = Machine.codeNumber (feedCode f)
     to a b pace slow =
       Move
         (Straight (Vec.point a 0) (Vec.point b 0))

@@ -56,7 +56,7 @@ spec = do
       $ do
         text <- readText "test/programs/machine/good/feed-along-an-arc.part"
         let made = Made.quantised kontur (Made.pathOf text)
-            codesOf p = [c | f <- framesOf p, let FeedCode c = feedCode f]
+            codesOf p = [c | f <- framesOf p, FeedCode c <- [feedCode f]]
             ranges =
               [ (v, low < 0.9 * v, v < high)
                 | FeedDiffers _ (Feed v) (Feed low) (Feed high) <- Result.warnings made
@@ -139,7 +139,7 @@ spec = do
       let f =
             frame p
           Pulses3 (Pulses x) (Pulses y) _ = increment f
-          FeedCode c = feedCode f
+          c = Machine.codeNumber (feedCode f)
        in ( (x, y),
             c,
             [(n, k) | (CommandName n, k) <- commands f]

@@ -264,7 +264,7 @@ furnished m = do
   measured <- elements [AlongPath, LeadingAxis]
   rounding <- elements [NotAbove, Nearest]
   rapid' <- elements [Highest, ByCode (fst (slowest m))]
-  forTurn <- elements [Nothing, Just (TurnFeeds 3 1 20000), Just (TurnFeeds 0 2 7)]
+  perTurn <- elements [Nothing, Just (TurnFeeds 3 1 20000), Just (TurnFeeds 0 2 7)]
   commands' <- commandsFor m
   let hasBrakingHole = BrakingHole `elem` concatMap (service . form) (wordsOf m)
       canBrakeByFrames = hasBrakingHole && measured == AlongPath
@@ -278,7 +278,7 @@ furnished m = do
                 { feedMeasure = measured,
                   rule = rounding,
                   rapidFeed = rapid',
-                  turnFeeds = forTurn
+                  turnFeeds = perTurn
                 },
             commandWords = commands'
           }
