@@ -80,6 +80,7 @@ import Pulse.ReaderDwell qualified as ReaderDwell
 import Report.Report (Report (code, others, place), ReportPlace (..))
 import Report.Report qualified as Report
 import Surface.Error qualified as Surface
+import Surface.FileUnit qualified as FileUnit
 import Surface.Parameter qualified as Surface
 import Tape.Punch qualified as Tape
 import Tape.Tape (Tape)
@@ -116,7 +117,10 @@ evaluate values loaded = do
   let located = Surface.inAssignment values written
   checked <-
     withoutEchoes (source loaded) (errors (surface loaded)) $
-      mapErrors id (located . Checked.toReport) (Checked.check assigned)
+      mapErrors
+        id
+        (located . Checked.toReport (FileUnit.ofProgram written))
+        (Checked.check assigned)
   warned
     ( BareNumber.besideInches
         fileOf

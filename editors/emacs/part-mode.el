@@ -62,7 +62,7 @@
 (defconst part-mode-constants '("pi" "true" "false")
   "The constants of the language.")
 
-(defconst part-mode-units '("mm/min" "m/min" "in/min" "mm/rev" "in/rev" "mm" "cm" "m" "in" "deg" "rad" "rpm")
+(defconst part-mode-units '("mm/min" "m/min" "in/min" "ft/min" "mm/rev" "in/rev" "mm" "cm" "m" "in" "deg" "rad" "rpm")
   "The units of numbers.")
 
 ;; Colours

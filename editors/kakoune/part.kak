@@ -82,7 +82,7 @@ provide-module part %§
 
     # Numbers and their units
     add-highlighter shared/part/code/ regex \b([0-9]+(?:\.[0-9]+)?)\b 1:value
-    add-highlighter shared/part/code/ regex \b([0-9]+(?:\.[0-9]+)?)\h*(mm/min|m/min|in/min|mm/rev|in/rev|mm|cm|m|in|deg|rad|rpm)\b 1:value 2:type
+    add-highlighter shared/part/code/ regex \b([0-9]+(?:\.[0-9]+)?)\h*(mm/min|m/min|in/min|ft/min|mm/rev|in/rev|mm|cm|m|in|deg|rad|rpm)\b 1:value 2:type
     add-highlighter shared/part/code/ regex ^\h*machine\h+([\w.-]+) 1:value
 
     # Indents a new line as the line before, and further after an opening bracket. Removes the spaces

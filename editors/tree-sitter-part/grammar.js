@@ -24,7 +24,7 @@ const CONSTANTS = ['pi', 'true', 'false'];
 
 const COLUMN_UNITS = ['mm', 'cm', 'm', 'in', 'deg', 'rad'];
 
-const OTHER_UNITS = ['mm/min', 'm/min', 'in/min', 'rpm'];
+const OTHER_UNITS = ['mm/min', 'm/min', 'in/min', 'ft/min', 'rpm'];
 
 // One or more of a rule, with commas between them.
 function list(rule) {

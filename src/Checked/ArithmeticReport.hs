@@ -15,6 +15,7 @@ module Checked.ArithmeticReport
 where
 
 import Base.Decimal qualified as Decimal
+import Base.Quantity (LengthUnit (..))
 import Base.Region (Region (..))
 import Data.Text (Text)
 import Data.Text qualified as Text
@@ -43,12 +44,18 @@ cuttingSpeedReport region =
     }
 
 -- | The report of a cutting speed without a unit.
-bareCuttingSpeedReport :: Region -> Report
-bareCuttingSpeedReport region =
+bareCuttingSpeedReport :: LengthUnit -> Region -> Report
+bareCuttingSpeedReport unit region =
   (at region "E0365" "this cutting speed has no unit")
-    { message = ["A number without a unit would be taken for mm/min here."],
-      fixes = [Fix.insertion "Write its unit: m/min." (end region) " m/min"]
+    { message =
+        [ "A number without a unit would be taken for " <> Decimal.unitText unit <> "/min here."
+        ],
+      fixes = [Fix.insertion ("Write its unit: " <> usual <> ".") (end region) (" " <> usual)]
     }
+  where
+    usual = case unit of
+      Millimetres -> "m/min"
+      Inches -> "ft/min"
 
 -- | The report of the coordinates of a point without its brackets.
 bareCoordinatesReport :: Region -> Report

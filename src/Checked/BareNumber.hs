@@ -29,7 +29,7 @@ import Report.Report qualified as Report
 import Surface.FileUnit qualified as FileUnit
 import Surface.Syntax
 import Surface.SyntaxWalk qualified as SyntaxWalk
-import Surface.Token (Unit (InPerMin, Inch))
+import Surface.Token (Unit (FtPerMin, InPerMin, Inch))
 
 -- | The types of the values that a program names, by the regions of their definitions.
 typesOfNames :: [Mention] -> Map Region Type
@@ -75,7 +75,7 @@ besideInches fileOf typeAt program
         | s <- statements',
           e <- SyntaxWalk.ofStatement s,
           Located at (Literal _ (Just unit)) <- SyntaxWalk.everywhere e,
-          unit `elem` [Inch, InPerMin]
+          unit `elem` [Inch, InPerMin, FtPerMin]
       ]
     byFile place found =
       Map.map

@@ -15,6 +15,7 @@ where
 import Base.Decimal qualified as Decimal
 import Base.Name (Name (..))
 import Base.Name qualified as Name
+import Base.Quantity (LengthUnit)
 import Base.Region (Region (..))
 import Checked.ArithmeticReport
 import Checked.CallReport
@@ -189,9 +190,9 @@ data LabelChange = LabelChange Region Text
 data UndefinedOperation = UndefinedNegation | UndefinedProduct | UndefinedQuotient
   deriving stock (Eq, Show)
 
--- | The report of a mistake.
-toReport :: Error -> Report
-toReport err = case err of
+-- | The report of a mistake in a program with this unit of lengths.
+toReport :: LengthUnit -> Error -> Report
+toReport unit err = case err of
   UndefinedName region (Name name) known again ->
     (at region "E0201" ("nothing is named " <> quote name))
       { others = [Label r "here too" | r <- take 4 again],
@@ -224,9 +225,9 @@ toReport err = case err of
       }
   CommaMissing region offset -> commaMissingReport region offset
   PointsAdded region left right half -> pointsAddedReport region left right half
-  UnknownUnit region n unit word speed -> unknownUnitReport region n unit word speed
+  UnknownUnit region n u word speed -> unknownUnitReport region n u word speed
   CuttingSpeedWithoutLimit region -> cuttingSpeedReport region
-  CuttingSpeedWithoutUnit region -> bareCuttingSpeedReport region
+  CuttingSpeedWithoutUnit region -> bareCuttingSpeedReport unit region
   BareCoordinates region -> bareCoordinatesReport region
   RadiansWithoutUnit region -> radiansReport region
   DefinedTwice region (Name name) before again uses ->
@@ -268,7 +269,7 @@ toReport err = case err of
     )
       { label = Type.describe found,
         others = decidedLabels (ErrorFix.definitions term) elsewhere,
-        fixes = ErrorFix.mismatchFixes region expected found term,
+        fixes = ErrorFix.mismatchFixes unit region expected found term,
         hints = mismatchHint expected found <> callHint term
       }
   ListAmongItems _ needed lists single written found ->
@@ -294,7 +295,7 @@ toReport err = case err of
             <> decidedLabels (maybe [] (ErrorFix.definitions . fst) terms) elsewhere,
         fixes =
           concat
-            [ ErrorFix.disagreeFixes operator (leftRegion, left, a) (rightRegion, right, b)
+            [ ErrorFix.disagreeFixes unit operator (leftRegion, left, a) (rightRegion, right, b)
               | Just (a, b) <- [terms]
             ],
         hints =
@@ -311,7 +312,7 @@ toReport err = case err of
         (operationTitle operation (map (Type.describe . snd) values))
     )
       { others = [Label r (Type.describe t) | (r, t) <- values],
-        fixes = ErrorFix.measureFixes values
+        fixes = ErrorFix.measureFixes unit values
       }
   ArgumentCount region (Name name) wanted given commas points call ->
     argumentCountReport region name (map fst wanted) given call $
@@ -368,7 +369,7 @@ toReport err = case err of
           [ "A contour leads along lines, circles, curves and open contours, and through \
             \points."
           ],
-        fixes = ErrorFix.curveFixes region term (ErrorFix.listFixes region t),
+        fixes = ErrorFix.curveFixes region term (ErrorFix.listFixes unit region t),
         hints = ["If two numbers are a point, write them in brackets: (40, 0)." | Quantity _ <- [t]]
       }
   NoPart region ->
@@ -441,7 +442,7 @@ toReport err = case err of
             <> nub
               [ fix
                 | (r, wanted, found) <- misfits,
-                  fix <- ErrorFix.mismatchFixes r wanted found ErrorFix.unwritten
+                  fix <- ErrorFix.mismatchFixes unit r wanted found ErrorFix.unwritten
               ],
         hints = if null points then ErrorFix.formsHint known else []
       }

@@ -6,6 +6,7 @@ module Checked.ErrorContext
 where
 
 import Base.Name (Name (..))
+import Base.Quantity (LengthUnit (..))
 import Base.Region (Located (..), Region (..))
 import Checked.Builtin qualified as Builtin
 import Checked.CallError qualified as CallError
@@ -160,7 +161,7 @@ besideSpaces statements errors = mapMaybe joined errors
       Triple {} -> True
       _ -> False
     apart = [r | FunctionAsValue at _ _ Nothing <- errors, r <- tuplesBehind at]
-    isInArguments e = case place (Error.toReport e) of
+    isInArguments e = case place (Error.toReport Millimetres e) of
       InSource r -> any (contains r) apart
       _ -> False
 

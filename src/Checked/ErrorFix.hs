@@ -22,7 +22,9 @@ module Checked.ErrorFix
   )
 where
 
+import Base.Decimal qualified as Decimal
 import Base.Name qualified as Name
+import Base.Quantity (LengthUnit)
 import Base.Region (Region (..))
 import Checked.NameMeaning qualified as NameMeaning
 import Checked.Syntax (Operator (..))
@@ -141,16 +143,17 @@ callFixes region name known
 
 -- Types
 
--- | Fixes that give a term the type that is needed.
-mismatchFixes :: Region -> Type -> Type -> WrittenTerm -> [Fix]
-mismatchFixes region wanted found term = case literal term of
+-- | Fixes that give a term the type that is needed. @fileUnit@ is the unit of lengths of the
+-- program.
+mismatchFixes :: LengthUnit -> Region -> Type -> Type -> WrittenTerm -> [Fix]
+mismatchFixes fileUnit region wanted found term = case literal term of
   Just (digits, unit)
-    | Just new <- unitFor wanted unit ->
+    | Just new <- unitFor fileUnit wanted unit ->
       let fix = Fix.exchange ("Write " <> written digits new <> ".") region (written digits new)
        in [if isSpeed wanted && found == Type.len then fix else Fix.proposed fix]
   _
     | isOwnCall term -> []
-    | otherwise -> contourFixes <> enclosed region (conversions wanted found)
+    | otherwise -> contourFixes <> enclosed region (conversions fileUnit wanted found)
   where
     written digits unit = Text.strip (digits <> " " <> unit)
     isSpeed t = t == Type.feed
@@ -187,28 +190,29 @@ circleFix region whole (name, free) turn =
     before = "contour " <> free <> " closed { " <> turn <> " "
 
 -- | The unit of a type, if a number with the given unit can have it instead.
-unitFor :: Type -> Unit -> Maybe Text
-unitFor wanted unit
+unitFor :: LengthUnit -> Type -> Unit -> Maybe Text
+unitFor fileUnit wanted unit
   | wanted == Type.number = Just ""
   | wanted == Type.feed = Just $ case unit of
     Inch -> "in/min"
     Metre -> "m/min"
-    _ -> "mm/min"
+    _ -> Decimal.unitText fileUnit <> "/min"
   | wanted == Type.len = Just $ case unit of
     InPerMin -> "in"
+    FtPerMin -> "in"
     MPerMin -> "m"
-    _ -> "mm"
-  | otherwise = unitOf wanted
+    _ -> Decimal.unitText fileUnit
+  | otherwise = unitOf fileUnit wanted
 
 -- | The name of the unit in which numbers of a type are usually written. 'Nothing' for other types
 -- than lengths, angles, feeds and speeds of rotation.
-unitOf :: Type -> Maybe Text
-unitOf t =
+unitOf :: LengthUnit -> Type -> Maybe Text
+unitOf fileUnit t =
   lookup
     True
-    [ (t == Type.len, "mm"),
+    [ (t == Type.len, Decimal.unitText fileUnit),
       (t == Type.angle, "deg"),
-      (t == Type.feed, "mm/min"),
+      (t == Type.feed, Decimal.unitText fileUnit <> "/min"),
       (t == Type.spindleSpeed, "rpm")
     ]
 
@@ -218,8 +222,8 @@ enclosed region cs =
 
 -- | Conversions of a term to the type @wanted@: the title of a fix, and the texts before and after
 -- the term.
-conversions :: Type -> Type -> [(Text, Text, Text)]
-conversions wanted found = case (wanted, found) of
+conversions :: LengthUnit -> Type -> Type -> [(Text, Text, Text)]
+conversions fileUnit wanted found = case (wanted, found) of
   _
     | wanted == Type.angle && found == Type.number ->
       [ times "deg" "Multiply the number by 1 deg, if it is in degrees.",
@@ -230,13 +234,13 @@ conversions wanted found = case (wanted, found) of
       [("Divide the angle by 1 rad: a number of radians.", "(", ") / 1 rad")]
   (Quantity _, Quantity _)
     | wanted == Type.number,
-      Just u <- unitOf found ->
+      Just u <- unitOf fileUnit found ->
       [("Divide by 1 " <> u <> ".", "(", ") / 1 " <> u)]
     | found == Type.number,
-      Just u <- unitOf wanted ->
+      Just u <- unitOf fileUnit wanted ->
       [times u ("Multiply the number by 1 " <> u <> ".")]
-    | Just u <- unitOf found,
-      Just v <- unitOf wanted ->
+    | Just u <- unitOf fileUnit found,
+      Just v <- unitOf fileUnit wanted ->
       [ ( "Take the number of " <> u <> " for a number of " <> v <> ".",
           "(",
           ") / 1 " <> u <> " * 1 " <> v
@@ -271,8 +275,12 @@ conversions wanted found = case (wanted, found) of
 
 -- | Fixes of a sum, a difference or a comparison of two terms that do not fit.
 disagreeFixes ::
-  Operator -> (Region, Type, WrittenTerm) -> (Region, Type, WrittenTerm) -> [Fix]
-disagreeFixes operator (leftRegion, left, leftTerm) (rightRegion, right, rightTerm) =
+  LengthUnit ->
+  Operator ->
+  (Region, Type, WrittenTerm) ->
+  (Region, Type, WrittenTerm) ->
+  [Fix]
+disagreeFixes fileUnit operator (leftRegion, left, leftTerm) (rightRegion, right, rightTerm) =
   case (left, right) of
     (Spatial _, Spatial _)
       | operator == Equal ->
@@ -288,8 +296,8 @@ disagreeFixes operator (leftRegion, left, leftTerm) (rightRegion, right, rightTe
     _ ->
       concatMap
         (take 1)
-        [ mismatchFixes rightRegion left right rightTerm,
-          mismatchFixes leftRegion right left leftTerm
+        [ mismatchFixes fileUnit rightRegion left right rightTerm,
+          mismatchFixes fileUnit leftRegion right left leftTerm
         ]
   where
     isSum = operator `elem` [Add, Subtract]
@@ -302,8 +310,8 @@ disagreeFixes operator (leftRegion, left, leftTerm) (rightRegion, right, rightTe
         ]
 
 -- | Fixes that calculate with a measure of every operand that is no quantity.
-measureFixes :: [(Region, Type)] -> [Fix]
-measureFixes operands = case filter (isJust . measure . snd) operands of
+measureFixes :: LengthUnit -> [(Region, Type)] -> [Fix]
+measureFixes fileUnit operands = case filter (isJust . measure . snd) operands of
   [] -> []
   measured ->
     [ Fix.proposed
@@ -323,9 +331,9 @@ measureFixes operands = case filter (isJust . measure . snd) operands of
     ]
   where
     measure t = listToMaybe $ case t of
-      Spatial _ | t == Type.aPoint -> conversions Type.aVector t
+      Spatial _ | t == Type.aPoint -> conversions fileUnit Type.aVector t
       Quantity _ -> []
-      _ -> conversions Type.len t
+      _ -> conversions fileUnit Type.len t
 
 -- Calls
 
@@ -380,11 +388,11 @@ curveFixes region term others = case (curve term, words term) of
   _ -> others
 
 -- | Fixes that make elements of a contour of the items of a list, or of a table.
-listFixes :: Region -> Type -> [Fix]
-listFixes region t = case t of
+listFixes :: LengthUnit -> Region -> Type -> [Fix]
+listFixes fileUnit region t = case t of
   ListOf Circle -> [each "ccw ", each "cw "]
   ListOf item | isElement item -> [each ""]
-  Table _ -> enclosed region (conversions (Curve t) t)
+  Table _ -> enclosed region (conversions fileUnit (Curve t) t)
   _ -> []
   where
     each sense =

@@ -101,6 +101,7 @@ ofUnit unit = case unit of
   MmPerMin -> (feed, 1)
   MPerMin -> (feed, 1000)
   InPerMin -> (feed, 25.4)
+  FtPerMin -> (feed, 304.8)
   Rpm -> (spindleSpeed, 1)
 
 -- | The description of a type in the words of a drawing, with an article, such as "a length".

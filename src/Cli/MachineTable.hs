@@ -380,7 +380,7 @@ valueText v = case v of
   Diameter -> "the cutter's diameter"
   InSeconds -> "the seconds given"
   InMilliseconds -> "the milliseconds of the seconds given"
-  InMetres -> "the cutting speed in m/min"
+  SurfaceSpeed step -> "the cutting speed in " <> (if step == 1000 then "m/min" else "ft/min")
   SpeedLimit -> "the limit in turns a minute"
 
 stepText :: Map Int Double -> Text

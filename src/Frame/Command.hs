@@ -143,7 +143,7 @@ numbersFor machine c CommandWord {commandName, value} = map (commandName,) $ cas
   Diameter -> []
   InSeconds -> [dwellNumber scale t | Part.Dwell t <- [c]]
   InMilliseconds -> [dwellNumber (1000 * scale) t | Part.Dwell t <- [c]]
-  InMetres -> [round (v / 1000) | Part.SpindleOn _ (CuttingSpeed v _) <- [c]]
+  SurfaceSpeed step -> [round (v / step) | Part.SpindleOn _ (CuttingSpeed v _) <- [c]]
   SpeedLimit -> [round limit | Part.SpindleOn _ (CuttingSpeed _ limit) <- [c]]
   where
     scale = 10 ^ Machine.commandDecimals machine commandName
@@ -228,7 +228,7 @@ compensationOn machine asked side radius@(Mm r) =
       Step _ -> Nothing
       InSeconds -> Nothing
       InMilliseconds -> Nothing
-      InMetres -> Nothing
+      SurfaceSpeed _ -> Nothing
       SpeedLimit -> Nothing
     Mm planeResolution = Machine.planeResolution machine
 

@@ -40,8 +40,8 @@ data SpindleNumbers
   = NoNumber
   | -- | turns per minute
     TurnNumber Int
-  | -- | constant cutting speed in m\/min, and the limit in turns per minute, if there is one
-    SurfaceNumbers Int (Maybe Int)
+  | -- | constant cutting speed in mm\/min, and the limit in turns per minute, if there is one
+    SurfaceNumbers Double (Maybe Int)
   deriving stock (Eq, Show)
 
 -- | Whole numbers of a rate of the spindle.
@@ -49,7 +49,7 @@ spindleNumbers :: SpindleRate -> SpindleNumbers
 spindleNumbers rate = case rate of
   NoRate -> NoNumber
   TurnsPerMinute n -> TurnNumber (round n)
-  CuttingSpeed v limit -> SurfaceNumbers (round (v / 1000)) (Just (round limit))
+  CuttingSpeed v limit -> SurfaceNumbers v (Just (round limit))
 
 -- | State at the beginning of a program.
 initial :: CommandState
@@ -118,18 +118,18 @@ numbers argument ws = [(commandName w, n) | w <- ws, Just n <- [numberOf (value 
       Diameter -> Nothing
       InSeconds -> Nothing
       InMilliseconds -> Nothing
-      InMetres -> Nothing
+      SurfaceSpeed _ -> Nothing
       SpeedLimit -> Nothing
 
--- | Words of a spindle at a constant cutting speed in m\/min, with its limit.
-surface :: Int -> Maybe Int -> [CommandWord] -> [(CommandName, Int)]
+-- | Words of a spindle at a constant cutting speed in mm\/min, with its limit.
+surface :: Double -> Maybe Int -> [CommandWord] -> [(CommandName, Int)]
 surface v limit ws =
   [ (commandName w, n)
     | w <- ws,
       Just n <-
         [ case value w of
             Fixed k -> Just k
-            InMetres -> Just v
+            SurfaceSpeed step -> Just (round (v / step))
             SpeedLimit -> limit
             Argument -> Nothing
             Step _ -> Nothing

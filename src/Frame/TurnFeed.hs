@@ -53,8 +53,8 @@ meanRadius machine a b = Mm (abs (radius a + radius b) / 2)
 
 -- | Rate at which the spindle turns after the commands of a frame.
 rateIn :: Machine -> Frame -> Maybe SpindleRate
-rateIn machine f = case (given InMetres surfaces, given SpeedLimit surfaces, turns) of
-  (v : _, limit : _, _) -> Just (CuttingSpeed (1000 * fromIntegral v) (fromIntegral limit))
+rateIn machine f = case (cuttingSpeeds, given SpeedLimit surfaces, turns) of
+  (v : _, limit : _, _) -> Just (CuttingSpeed v (fromIntegral limit))
   (_, _, n : _) -> Just (TurnsPerMinute (fromIntegral n))
   _ -> Nothing
   where
@@ -62,6 +62,11 @@ rateIn machine f = case (given InMetres surfaces, given SpeedLimit surfaces, tur
     table = Machine.commandWords machine
     plain = spindleClockwise table <> spindleCounterClockwise table
     surfaces = surfaceClockwise table <> surfaceCounterClockwise table
+    cuttingSpeeds =
+      [ step * fromIntegral n
+        | CommandWord {commandName, value = SurfaceSpeed step} <- surfaces,
+          Just n <- [lookup commandName (commands f)]
+      ]
     given :: CommandValue -> [CommandWord] -> [Int]
     given source ws =
       [n | w <- ws, value w == source, Just n <- [lookup (commandName w) (commands f)]]

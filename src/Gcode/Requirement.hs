@@ -61,7 +61,8 @@ spindleErrors machine heading path
         | n > 0 -> Nothing
         | otherwise -> slow <$> cutOf block
       Just (_, CommandState.SurfaceNumbers v _)
-        | v > 0 -> Nothing
+        -- It is written in whole m/min or ft/min.
+        | v > 500 -> Nothing
         | otherwise -> slow <$> cutOf block
     off region =
       (at region "E0511" "the spindle is off at this cut")

@@ -254,15 +254,15 @@ stateOf before m =
       Carrier.Clockwise -> Clockwise
       Carrier.CounterClockwise -> CounterClockwise
 
--- | Speed of the spindle in whole numbers.
+-- | Speed of the spindle.
 speedOf :: ModalState -> SpindleNumbers
 speedOf m = case (valueOf (speed m), valueOf (speedMode m)) of
   (Nothing, _) -> NoNumber
-  (Just v, Just (ConstantCutting limit)) -> SurfaceNumbers (round (v * perUnit)) limit
+  (Just v, Just (ConstantCutting limit)) -> SurfaceNumbers (v * perUnit) limit
   (Just v, _) -> TurnNumber (round v)
   where
     -- In inches a cutting speed is in feet per minute.
-    perUnit = if valueOf (units m) == Just Inches then 0.3048 else 1 :: Double
+    perUnit = if valueOf (units m) == Just Inches then 304.8 else 1000 :: Double
 
 -- | Adds a frame of commands.
 addCommands :: Int -> [(Machine.CommandName, Int)] -> Converting -> Converting
@@ -331,7 +331,7 @@ frameOf machine step travel begin target = case mode travel of
 -- | Feed code of the state.
 feedCodeOf :: Machine -> ModalState -> FeedCode
 feedCodeOf machine m = case (valueOf (feedMode m), Machine.turnFeeds (Machine.feeds machine)) of
-  (Just PerTurn, Just f) -> TurnCode (maybe 0 (round . (* 10 ^ turnDecimals f)) given')
+  (Just PerTurn, Just f) -> TurnCode (maybe 0 (round . (/ turnStep f)) given')
   _ -> FeedCode (maybe 0 inSteps given')
   where
     given' = valueOf (Gcode.ModalState.feed m)

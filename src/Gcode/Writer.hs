@@ -14,7 +14,6 @@ where
 import Base.Decimal qualified as Decimal
 import Base.PulseVector (Pulses2 (..), Pulses3 (..))
 import Base.Quantity (LengthUnit (..), Mm (..), Pulses (..), Seconds (..))
-import Data.Char (isAscii, isPrint)
 import Data.Map.Strict qualified as Map
 import Data.Maybe (fromMaybe, isJust, listToMaybe, mapMaybe, maybeToList)
 import Data.Set qualified as Set
@@ -23,6 +22,7 @@ import Data.Text qualified as Text
 import Frame.Command qualified as Command
 import Frame.Frame (Frame (..), FrameMotion (..), FrameProgram (..), PlannedFrame (..), passNumber)
 import Frame.Frame qualified as Frame
+import Gcode.CommentText qualified as CommentText
 import Gcode.Dialect qualified as Dialect
 import Gcode.FileTime qualified as FileTime
 import Gcode.Heading (FileHeading (..))
@@ -249,9 +249,8 @@ commentLine Context {form} (word, text) = case dialect form of
   Marlin -> cut ("; " <> content)
   _ -> cut ("(" <> content) <> ")"
   where
-    content = word <> ": " <> Text.map replaced (Text.filter isHarmless text)
-    isHarmless c = isAscii c && isPrint c && c `notElem` ("()%;!?~\\^$*[]#" :: String)
-    replaced c = if c == '\t' then ' ' else c
+    content = word <> ": " <> Text.filter isHarmless (CommentText.plain text)
+    isHarmless c = c `notElem` ("()%;!?~\\^$*[]#" :: String)
     cut = Text.take (mostCharacters form - 1)
 
 -- | Lines that set every part of the state that the motions need.
@@ -387,7 +386,8 @@ actionsOf machine f = go (commands f) candidates
       _ -> Nothing
     isNumberOf n v = case v of
       Fixed k -> k == n
-      _ -> v `elem` [Argument, InMetres, SpeedLimit]
+      SurfaceSpeed _ -> True
+      _ -> v `elem` [Argument, SpeedLimit]
     argumentOf ws found = fromMaybe 0 (listToMaybe (mapMaybe (argumentIn found) ws))
     argumentIn found w
       | value w == Argument = lookup (commandName w) found
@@ -509,7 +509,7 @@ motionText context@Context {machine} end f = Text.unwords (motionWord : axisWord
 feedNumber :: Context -> FeedCode -> Text
 feedNumber Context {machine, form} code = case code of
   FeedCode n -> decimalText places n <> (if dialect form == Fanuc && places == 0 then "." else "")
-  TurnCode _ -> maybe "" (Decimal.short 6) (Machine.forTurn machine code)
+  TurnCode _ -> maybe "" (Decimal.shortIn (fileUnit form) 6 . Mm) (Machine.forTurn machine code)
   where
     places = maybe 0 (decimals . Machine.form) (Machine.wordFor machine FeedWord)
 

@@ -188,7 +188,8 @@ wordFrom s = case (arguments s, block s) of
       [name, Located _ (Word "argument")] -> pure . (`located` Argument) <$> nameFrom name
       [name, Located _ (Word "diameter")] -> pure . (`located` Diameter) <$> nameFrom name
       [name, Located _ (Word "seconds")] -> pure . (`located` InSeconds) <$> nameFrom name
-      [name, Located _ (Word "cutting-speed")] -> pure . (`located` InMetres) <$> nameFrom name
+      [name, Located _ (Word "cutting-speed")] ->
+        pure . (`located` SurfaceSpeed 1000) <$> nameFrom name
       [name, Located _ (Word "limit")] -> pure . (`located` SpeedLimit) <$> nameFrom name
       [name, Located _ (Word "milliseconds")] ->
         pure . (`located` InMilliseconds) <$> nameFrom name
@@ -260,7 +261,7 @@ givesZero v = case v of
   Diameter -> False
   InSeconds -> False
   InMilliseconds -> False
-  InMetres -> False
+  SurfaceSpeed _ -> False
   SpeedLimit -> False
 
 -- | Reports numbers above @most@, the largest number that the command's word or bits can hold. It
@@ -273,7 +274,7 @@ sizeFaults machine r name most v = case v of
   Diameter -> []
   InSeconds -> []
   InMilliseconds -> []
-  InMetres -> decimalsFault
+  SurfaceSpeed _ -> decimalsFault
   SpeedLimit -> decimalsFault
   where
     tooLarge ks = [BadCommand r (NumberTooLarge k most) | k <- ks, k > most]
@@ -294,7 +295,7 @@ eventFaults r event v = case v of
   Diameter -> onlyFor "diameter" ["compensation"]
   InSeconds -> onlyFor "seconds" ["dwell"]
   InMilliseconds -> onlyFor "milliseconds" ["dwell"]
-  InMetres -> onlyFor "cutting-speed" surfaceEvents
+  SurfaceSpeed _ -> onlyFor "cutting-speed" surfaceEvents
   SpeedLimit -> onlyFor "limit" surfaceEvents
   where
     surfaceEvents = ["surface-clockwise", "surface-counterclockwise"]

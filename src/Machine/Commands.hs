@@ -58,8 +58,8 @@ data CommandValue
     InSeconds
   | -- | time of the dwell, in milliseconds
     InMilliseconds
-  | -- | constant cutting speed, in m\/min
-    InMetres
+  | -- | constant cutting speed; the field is the speed in mm\/min that the number 1 means
+    SurfaceSpeed Double
   | -- | limit of the speed of the spindle at a constant cutting speed, in revolutions per minute
     SpeedLimit
   deriving stock (Eq, Show)

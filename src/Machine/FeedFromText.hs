@@ -137,7 +137,7 @@ turnFeedsFrom = withArguments ["per-turn 0.001 mm/rev 1..20000"] form
     form args = case args of
       [Located _ (Number _ step), Located _ (Word "mm/rev"), Located r (Range a b)]
         | a < 1 || b < a -> Just (Result.failed (BadTable r (BadRange a b)))
-        | [d] <- filter (isStep step) [0 .. 6] -> Just (pure (TurnFeeds d a b))
+        | any (isStep step) [0 .. 6] -> Just (pure (TurnFeeds step a b))
       _ -> Nothing
     isStep step d = abs (step * 10 ^ (d :: Int) - 1) < 1.0e-9
 

@@ -26,11 +26,10 @@ data FeedCode
     TurnCode Int
   deriving stock (Eq, Ord, Show)
 
--- | Feeds for one turn of the spindle. The code of a feed is its count of steps of 10^(-d) mm,
--- where
--- @d@ is 'turnDecimals'.
+-- | Feeds for one turn of the spindle. The code of a feed is its count of steps.
 data TurnFeeds = TurnFeeds
-  { turnDecimals :: Int,
+  { -- | size of a step in mm
+    turnStep :: Double,
     -- | the lowest and the highest code
     lowestTurn :: Int,
     highestTurn :: Int

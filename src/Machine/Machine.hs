@@ -104,7 +104,7 @@ import Data.List (foldl')
 import Data.List.NonEmpty (NonEmpty (..))
 import Data.List.NonEmpty qualified as NonEmpty
 import Data.Map.Strict qualified as Map
-import Data.Maybe (isJust, isNothing)
+import Data.Maybe (isJust)
 import Data.Text (Text)
 import Machine.Axis
   ( Arcs (..),
@@ -242,19 +242,20 @@ forTurning machine =
   machine {axes = fmap (\f -> f {reversed = reversed f /= reversedOnLathe f}) (axes machine)}
 
 -- | The machine with files in inches: a step of an axis is the last decimal in inches, of which
--- there is one more than in mm, and a feed code counts tenths of in/min. A machine whose tapes have
--- no form of programs stays as it is, and so does a lathe.
+-- there is one more than in mm. A feed code counts tenths of in/min, a cutting speed is in ft/min,
+-- and a feed for one turn has one decimal more. A machine whose tapes have no form of programs
+-- stays as it is.
 inInches :: Machine -> Machine
 inInches machine = case programForm machine of
-  Just written
-    | isNothing (lathe written) ->
-      machine
-        { programForm = Just written {fileUnit = Inches},
-          axes = fmap inchAxis (axes machine),
-          layout = (layout machine) {items = fmap inchItem (items (layout machine))},
-          feeds = inchFeeds (feeds machine)
-        }
-  _ -> machine
+  Just written ->
+    machine
+      { programForm = Just written {fileUnit = Inches},
+        axes = fmap inchAxis (axes machine),
+        layout = (layout machine) {items = fmap inchItem (items (layout machine))},
+        feeds = inchFeeds (feeds machine),
+        commandWords = inFeet (commandWords machine)
+      }
+  Nothing -> machine
   where
     inchAxis f = f {resolution = inchStep (axis f)}
     inchStep a = case wordFor machine (Along a) of
@@ -269,15 +270,39 @@ inInches machine = case programForm machine of
       Along _ -> True
       Centre _ -> True
       _ -> False
-    inchFeeds f = case codes f of
-      Direct a b ->
-        f
-          { codes = Direct (max 1 (ceiling (stepsOf a))) (floor (stepsOf b)),
-            directStep = step
-          }
-      Listed _ -> f
-    stepsOf n = fromIntegral n / step :: Double
-    step = millimetresIn Inches / 10
+
+-- | Words for a constant cutting speed in ft\/min.
+inFeet :: CommandWords -> CommandWords
+inFeet table =
+  table
+    { surfaceClockwise = map footWord (surfaceClockwise table),
+      surfaceCounterClockwise = map footWord (surfaceCounterClockwise table)
+    }
+  where
+    footWord w = case value w of
+      SurfaceSpeed _ -> w {value = SurfaceSpeed (12 * millimetresIn Inches)}
+      _ -> w
+
+-- | Feeds whose codes count tenths of in\/min and, for one turn, inches with one decimal more.
+inchFeeds :: Feeds -> Feeds
+inchFeeds f = case codes f of
+  Direct a b ->
+    f
+      { codes = Direct (lowestOf a) (highestOf b),
+        directStep = ratio,
+        turnFeeds = inchTurns <$> turnFeeds f
+      }
+  Listed _ -> f
+  where
+    ratio = millimetresIn Inches / 10
+    lowestOf n = max 1 (ceiling (fromIntegral n / ratio))
+    highestOf n = floor (fromIntegral n / ratio)
+    inchTurns t =
+      TurnFeeds
+        { turnStep = turnStep t * ratio,
+          lowestTurn = lowestOf (lowestTurn t),
+          highestTurn = highestOf (highestTurn t)
+        }
 
 -- | True if the machine's axes mirror the part, so that the left side of a contour is the right
 -- side for the machine.
@@ -396,13 +421,12 @@ choose machine wanted
 chooseTurn :: Machine -> Double -> Maybe FeedChoice
 chooseTurn machine wanted = chosen <$> turnFeeds (feeds machine)
   where
-    chosen TurnFeeds {turnDecimals, lowestTurn, highestTurn}
+    chosen TurnFeeds {turnStep, lowestTurn, highestTurn}
       | n < lowestTurn || n > highestTurn = NoSuchFeed (valueAt lowestTurn) (valueAt highestTurn)
       | otherwise = Given (TurnCode n) (valueAt n)
       where
-        scale = 10 ^ turnDecimals :: Double
-        n = round (wanted * scale)
-        valueAt k = fromIntegral k / scale
+        n = round (wanted / turnStep)
+        valueAt k = fromIntegral k * turnStep
 
 -- | Number of a feed code.
 codeNumber :: FeedCode -> Int
@@ -413,7 +437,7 @@ codeNumber code' = case code' of
 -- | Feed in mm for one turn of the spindle that a code means; Nothing for a feed per minute.
 forTurn :: Machine -> FeedCode -> Maybe Double
 forTurn machine code' = case (code', turnFeeds (feeds machine)) of
-  (TurnCode n, Just t) -> Just (fromIntegral n / 10 ^ turnDecimals t)
+  (TurnCode n, Just t) -> Just (fromIntegral n * turnStep t)
   (TurnCode _, Nothing) -> Nothing
   (FeedCode _, _) -> Nothing
 

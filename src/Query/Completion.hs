@@ -84,8 +84,11 @@ completion now before at = found <$> Cursor.at (Region.text (Snapshot.source now
           slots = Slot.slots (Scope.typings names) cursor
        in Completion
             { replaced = Cursor.typed cursor,
-              items = sortOn rank (nubOrdOn label (concatMap (ofSlot now cursor names) slots))
+              items =
+                map inFileUnit $
+                  sortOn rank (nubOrdOn label (concatMap (ofSlot now cursor names) slots))
             }
+    inFileUnit i = i {snippet = Snippet.inUnit (Snapshot.unit now) (snippet i)}
 
 -- | The items for one kind of text.
 ofSlot :: Snapshot -> Cursor -> [ScopedName] -> Slot -> [CompletionItem]

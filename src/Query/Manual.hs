@@ -255,6 +255,7 @@ units =
       ),
       ("m/min", "Is the metre per minute, 1000 mm/min."),
       ("in/min", "Is the inch per minute, 25.4 mm/min."),
+      ("ft/min", "Is the foot per minute, 304.8 mm/min; for cutting speeds."),
       ("rpm", "Is the turn per minute.")
     ]
 

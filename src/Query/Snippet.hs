@@ -6,11 +6,14 @@ module Query.Snippet
     setting,
     cutters,
     onceOnly,
+    inUnit,
     plain,
   )
 where
 
+import Base.Quantity (LengthUnit (..))
 import Data.Char (isDigit)
+import Data.Foldable (foldl')
 import Data.Text (Text)
 import Data.Text qualified as Text
 
@@ -85,6 +88,31 @@ cutters =
 -- | The keywords of the statements that a program has at most once.
 onceOnly :: [Text]
 onceOnly = ["part", "units", "machine", "tool", "tolerance", "from", "work", "program", "safe"]
+
+-- | The snippet for a program with this unit of lengths: sizes and feeds that are usual in it.
+inUnit :: LengthUnit -> Text -> Text
+inUnit unit snippet = case unit of
+  Millimetres -> snippet
+  Inches -> foldl' exchanged snippet inchSizes
+  where
+    exchanged text (metric, inch) = Text.replace (":" <> metric <> "}") (":" <> inch <> "}") text
+
+-- | The sizes and feeds of the snippets, each with a usual one in inches.
+inchSizes :: [(Text, Text)]
+inchSizes =
+  [ ("0 mm", "0 in"),
+    ("0.02 mm", "0.001 in"),
+    ("0.3 mm", "0.01 in"),
+    ("0.4 mm", "0.016 in"),
+    ("1 mm", "0.04 in"),
+    ("3 mm", "0.1 in"),
+    ("5 mm", "0.2 in"),
+    ("6 mm", "0.25 in"),
+    ("20 mm", "0.8 in"),
+    ("40 mm", "1.5 in"),
+    ("20 mm/min", "1 in/min"),
+    ("60 mm/min", "10 in/min")
+  ]
 
 -- | The text of a snippet without its marks, for a client that does not know them.
 plain :: Text -> Text

@@ -239,6 +239,7 @@ unitMeant word = listToMaybe ([u | u <- units, u == small] <> [u | (w, u) <- oth
           map (,"rad") (Text.words "radian radians рад радиан"),
           map (,"mm/min") (Text.words "mmpm mm_min mmmin mm_per_min"),
           map (,"in/min") (Text.words "ipm inpm"),
+          map (,"ft/min") (Text.words "sfm fpm sfpm"),
           map (,"rpm") (Text.words "об r/min revs rev upm u/min revolutions")
         ]
 

@@ -62,6 +62,7 @@ data Unit
   | MmPerMin
   | MPerMin
   | InPerMin
+  | FtPerMin
   | Rpm
   deriving stock (Eq, Ord, Show, Enum, Bounded)
 
@@ -77,6 +78,7 @@ unitName unit = case unit of
   MmPerMin -> "mm/min"
   MPerMin -> "m/min"
   InPerMin -> "in/min"
+  FtPerMin -> "ft/min"
   Rpm -> "rpm"
 
 -- | The units that a column of a table can have: those of lengths and angles.

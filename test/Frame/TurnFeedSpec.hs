@@ -25,13 +25,13 @@ spec = describe "feeds for one turn of the spindle" $ do
       `shouldBe` [160, 100]
   -- 100 m/min at a radius of 20 mm are 795.77 turns a minute.
   it "follow the radius at a constant cutting speed" $
-    feedsAt 20000 [turning (SurfaceNumbers 100 (Just 2500)), along 2000] `shouldBe` [159]
+    feedsAt 20000 [turning (SurfaceNumbers 100000 (Just 2500)), along 2000] `shouldBe` [159]
   it "have no more turns than the limit" $
-    feedsAt 500 [turning (SurfaceNumbers 100 (Just 2500)), along 2000] `shouldBe` [500]
+    feedsAt 500 [turning (SurfaceNumbers 100000 (Just 2500)), along 2000] `shouldBe` [500]
   it "take the radius in the middle of a facing cut" $
     feedsAt
       40000
-      [ turning (SurfaceNumbers 100 (Just 2500)),
+      [ turning (SurfaceNumbers 100000 (Just 2500)),
         (along 2000) {increment = Pulses3 0 (-40000) 0}
       ]
       `shouldBe` [159]

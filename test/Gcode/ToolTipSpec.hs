@@ -36,7 +36,14 @@ import Gcode.Writer qualified as Writer
 import Geometry.Carrier qualified as Carrier
 import LinuxCnc qualified
 import Machine.BuiltIn qualified as BuiltIn
-import Machine.Machine (FeedCode (..), Machine (programForm), MachineName (..), ProgramForm)
+import Machine.Machine
+  ( FeedChoice (..),
+    FeedCode (..),
+    Machine (programForm),
+    MachineName (..),
+    ProgramForm,
+  )
+import Machine.Machine qualified as Machine
 import Part.Part (Cutter (..), CutterKind (..), Sense (..))
 import System.Directory (listDirectory)
 import System.Exit (ExitCode (..))
@@ -49,15 +56,30 @@ import Verify.FromGcode qualified as FromGcode
 
 spec :: Spec
 spec = describe "files for lathes" $ do
-  it "are read as the frames that were written" $
-    forAll ((,) <$> headings <*> programs) $ \(given, program) ->
-      readBack given program === Right (framesOf program)
+  forM_ [("mm", lathe), ("inches", Machine.inInches lathe)] $ \(unit, machine) ->
+    it ("are read as the frames that were written, in " <> unit) $
+      forAll ((,) <$> headings <*> programs machine) $ \(given, program) ->
+        readBack machine given program === Right (framesOf program)
+  it "have cutting speeds in feet and feeds for one turn in inches, in inches" $ do
+    let machine = Machine.inInches lathe
+        speed = initial {CommandState.spindle = Just (Clockwise, SurfaceNumbers 182880 (Just 2500))}
+        feed = [code | Just (Given code _) <- [Machine.chooseTurn machine 0.254]]
+        given = headingOf [(1, turning 0 9)]
+        text = Text.lines . textOf machine given . programOf machine
+        along code =
+          (Frame.commandFrame [])
+            { motion = Linear,
+              increment = Pulses3 (-10000) 0 0,
+              feedCode = code
+            }
+    text [(speed, along code, Linking) | code <- feed]
+      `shouldSatisfy` (\ls -> all (`elem` ls) ["G96 D2500 S600 M3", "G95", "G1 Z-0.5000 F0.01"])
   it "lead the point of the tool that the tool table measures" $
     forAll (choose (1, 9)) $ \tip' ->
       forAll (elements [0, 0.2, 0.4, 0.8, 1.2]) $ \radius ->
         forAll onePass $ \program ->
           let given = headingOf [(1, turning radius tip')]
-           in placesIn (textOf given program) === map (moved radius tip') (centresOf program)
+           in placesIn (textOf lathe given program) === map (moved radius tip') (centresOf program)
   examples <- runIO (filter ((== ".part") . takeExtension) <$> filesBelow "examples/cnc")
   lathes <- runIO (concat <$> traverse ofLathe examples)
   isThere <- runIO LinuxCnc.installed
@@ -75,8 +97,8 @@ spec = describe "files for lathes" $ do
 lathe :: Machine
 lathe = fromMaybe (error "no lathe") (BuiltIn.find (MachineName "linuxcnc-lathe"))
 
-form :: ProgramForm
-form = fromMaybe (error "no form") (programForm lathe)
+formOf :: Machine -> ProgramForm
+formOf = fromMaybe (error "no form") . programForm
 
 -- Programs ----------------------------------------------------------------------------------------
 
@@ -109,14 +131,14 @@ headings = do
   pure (headingOf (zip [1 ..] tools)) {insidePasses = Set.fromList inside}
 
 -- | Random programs with changes of the tool, speeds of both kinds and feeds of both kinds.
-programs :: Gen FrameProgram
-programs = do
+programs :: Machine -> Gen FrameProgram
+programs machine = do
   count <- choose (1, 25)
   states <- vectorOf count states'
   moves <- vectorOf count moves'
   roles <- vectorOf count (oneof [pure Linking, Cutting <$> choose (0, 2)])
   let kept = drop 1 (scanl keep initial states)
-  pure (programOf (zip3 kept moves roles))
+  pure (programOf machine (zip3 kept moves roles))
   where
     keep earlier now = case tool now of
       Nothing -> now {tool = tool earlier}
@@ -132,7 +154,9 @@ programs = do
     speeds =
       oneof
         [ TurnNumber <$> choose (50, 3000),
-          SurfaceNumbers <$> choose (20, 400) <*> (Just <$> choose (500, 4000))
+          SurfaceNumbers . (* 1000) . fromIntegral
+            <$> choose (20 :: Int, 400)
+            <*> (Just <$> choose (500, 4000))
         ]
 
 -- | Random motions with the first tool.
@@ -141,7 +165,7 @@ onePass = do
   count <- choose (1, 20)
   moves <- vectorOf count moves'
   let turns = initial {CommandState.spindle = Just (Clockwise, TurnNumber 800)}
-  pure (programOf [(turns, m, Linking) | m <- moves])
+  pure (programOf lathe [(turns, m, Linking) | m <- moves])
 
 initial :: CommandState
 initial = CommandState.initial {tool = Just 1}
@@ -169,16 +193,16 @@ moves' =
           feedCode = code
         }
 
-programOf :: [(CommandState, Frame, Role)] -> FrameProgram
-programOf moves = FrameProgram begin (concat made <> map commanding (rest <> ends))
+programOf :: Machine -> [(CommandState, Frame, Role)] -> FrameProgram
+programOf machine moves = FrameProgram begin (concat made <> map commanding (rest <> ends))
   where
     begin = Pulses3 5000 30000 0
     ((_, left), made) = mapAccumL add (initial, Nothing) moves
     rest = [Frame.commandFrame (given p) | p <- maybeToList left]
-    ends = map Frame.commandFrame (Command.finalFrames lathe)
+    ends = map Frame.commandFrame (Command.finalFrames machine)
     commanding f = PlannedFrame f Commanding (Region 0 0) (Mm 0)
     add (earlier, waiting) (now, f, role) =
-      let (full, left') = foldl' group ([], waiting) (CommandState.between lathe earlier now)
+      let (full, left') = foldl' group ([], waiting) (CommandState.between machine earlier now)
           own = f {commands = maybe [] given left'}
        in ( (now, Nothing),
             map (commanding . Frame.commandFrame . given) full
@@ -186,20 +210,20 @@ programOf moves = FrameProgram begin (concat made <> map commanding (rest <> end
           )
     group (full, waiting) ws =
       let (more, pending') =
-            Command.add lathe (Region 0 0) (Command.Translation ws False [] []) waiting
+            Command.add machine (Region 0 0) (Command.Translation ws False [] []) waiting
        in (full <> more, pending')
 
 framesOf :: FrameProgram -> [Frame]
 framesOf = map Frame.frame . plannedFrames
 
-textOf :: FileHeading -> FrameProgram -> Text
-textOf given program =
-  Text.concat (map Writer.fileText (Writer.write lathe form given Nothing program))
+textOf :: Machine -> FileHeading -> FrameProgram -> Text
+textOf machine given program =
+  Text.concat (map Writer.fileText (Writer.write machine (formOf machine) given Nothing program))
 
-readBack :: FileHeading -> FrameProgram -> Either String [Frame]
-readBack given program =
+readBack :: Machine -> FileHeading -> FrameProgram -> Either String [Frame]
+readBack machine given program =
   either (Left . show) (Right . FromGcode.framesRead) $
-    FromGcode.readTexts lathe form given program [textOf given program]
+    FromGcode.readTexts machine (formOf machine) given program [textOf machine given program]
 
 -- The measured point ------------------------------------------------------------------------------
 
@@ -228,7 +252,7 @@ moved radius n (z, x)
 -- | Positions at the ends of the motions of a file in work coordinates, in micrometres along Z and
 -- X, after the tool has come down. The words of X are halved here.
 placesIn :: Text -> [(Int, Int)]
-placesIn text = case Run.run form Nothing 1 text of
+placesIn text = case Run.run (formOf lathe) Nothing 1 text of
   Left fault -> error (show fault)
   Right steps ->
     [ (z `div` 1000000, x `div` 1000000)
@@ -263,15 +287,16 @@ sameMotions part = withSystemTempDirectory "partc-lathe" $ \folder -> do
       ["HOME=" <> folder, "rs274", "-g", "-t", folder </> "tools.tbl", file]
       ""
   (ended, complaint) `shouldBe` (ExitSuccess, "executing\n")
-  case Run.run form Nothing 1 text of
+  case Run.run (formOf lathe) Nothing 1 text of
     Left fault -> expectationFailure (show fault)
     Right steps -> do
       let own = [motionOf travel | Step {action = Travels travel} <- steps]
-          made = concatMap canonical (Text.lines (Text.pack out))
+          made = concatMap (canonical (unitOf text)) (Text.lines (Text.pack out))
       length made `shouldBe` length own
-      [(a, b) | (a, b) <- zip own made, not (a `agrees` b)] `shouldSatisfy` null
+      [(a, b) | (a, b) <- zip own made, not (agrees (unitOf text) a b)] `shouldSatisfy` null
       length [() | Motion "ARC" _ _ <- made] `shouldSatisfy` (> 0)
   where
+    unitOf text = if "G20" `Text.isInfixOf` text then 25.4 else 1
     tool' n =
       let s = Text.pack (show n)
        in "T" <> s <> " P" <> s <> " X0.5 Z" <> s <> " D0.05 Q2"
@@ -292,9 +317,10 @@ motionOf travel = Motion kindOf (known (placeZ end), known (placeX end)) centre'
       Anywhere -> Nothing
     centre' = (\(a, b) -> (Run.picometres a, Run.picometres b)) <$> about travel
 
--- | Motion of a call of the interpreter; empty for a call that is none.
-canonical :: Text -> [Motion]
-canonical l = case Text.breakOn "(" (Text.unwords (drop 2 (Text.words l))) of
+-- | Motion of a call of the interpreter, with numbers in units of @unit@ mm; empty for a call that
+-- is none.
+canonical :: Double -> Text -> [Motion]
+canonical unit l = case Text.breakOn "(" (Text.unwords (drop 2 (Text.words l))) of
   ("STRAIGHT_TRAVERSE", given') | x : _ : z : _ <- numbers given' -> [plain "TRAVERSE" z x]
   ("STRAIGHT_FEED", given') | x : _ : z : _ <- numbers given' -> [plain "FEED" z x]
   ("ARC_FEED", given')
@@ -308,21 +334,21 @@ canonical l = case Text.breakOn "(" (Text.unwords (drop 2 (Text.words l))) of
   where
     plain kind' z x = Motion kind' (Just z, Just x) Nothing
     numbers =
-      map (either (error . show) fst . Read.signed Read.double)
+      map (either (error . show) ((* unit) . fst) . Read.signed Read.double)
         . filter (not . Text.null)
         . Text.split (`elem` [',', ' ', ')'])
         . Text.drop 1
 
 -- | Test that two motions are the same, as far as their ends are known. The calls have four
--- decimals.
-agrees :: Motion -> Motion -> Bool
-agrees (Motion k (z, x) c) (Motion k' (z', x') c') =
+-- decimals, in units of @unit@ mm.
+agrees :: Double -> Motion -> Motion -> Bool
+agrees unit (Motion k (z, x) c) (Motion k' (z', x') c') =
   k == k'
     && near z z'
     && near x x'
     && near (fst <$> c) (fst <$> c')
     && near (snd <$> c) (snd <$> c')
   where
-    near (Just a) (Just b) = abs (a - b) < 1.0e-4
+    near (Just a) (Just b) = abs (a - b) < 1.0e-4 * unit
     near Nothing _ = True
     near _ Nothing = False

@@ -27,7 +27,12 @@ import Gcode.Heading (FileHeading (..))
 import Gcode.Writer qualified as Writer
 import Geometry.Carrier qualified as Carrier
 import Machine.BuiltIn qualified as BuiltIn
-import Machine.Machine (FeedCode (..), Machine (programForm), MachineName (..))
+import Machine.Machine
+  ( FeedCode (..),
+    Machine (programForm),
+    MachineName (..),
+    ProgramForm (mostCharacters),
+  )
 import Part.Part (Sense (..))
 import Test.Hspec
 import Test.QuickCheck
@@ -48,10 +53,12 @@ spec = describe "files for modern controls" $ do
           comments = filter (\l -> Text.take 1 l `elem` ["(", ";"]) written
        in conjoin
             [ counterexample (show l) $
-                Text.length l <= 79 && Text.all isPlain (Text.drop 1 (bare l))
+                Text.length l <= mostCharacters (formOf name)
+                  && Text.all isPlain (Text.drop 1 (bare l))
               | l <- comments
             ]
   where
+    formOf = fromMaybe (error "no form") . programForm . machineNamed
     bare l = if ")" `Text.isSuffixOf` l then Text.dropEnd 1 l else l
     isPlain c = c >= ' ' && c <= '~' && c `notElem` ("()%;!?~" :: String)
     titles =

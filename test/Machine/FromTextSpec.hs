@@ -264,7 +264,7 @@ furnished m = do
   measured <- elements [AlongPath, LeadingAxis]
   rounding <- elements [NotAbove, Nearest]
   rapid' <- elements [Highest, ByCode (fst (slowest m))]
-  perTurn <- elements [Nothing, Just (TurnFeeds 3 1 20000), Just (TurnFeeds 0 2 7)]
+  perTurn <- elements [Nothing, Just (TurnFeeds 0.001 1 20000), Just (TurnFeeds 1 2 7)]
   commands' <- commandsFor m
   let hasBrakingHole = BrakingHole `elem` concatMap (service . form) (wordsOf m)
       canBrakeByFrames = hasBrakingHole && measured == AlongPath
@@ -324,9 +324,9 @@ commandsFor m = do
       Diameter -> False
       InSeconds -> False
       InMilliseconds -> False
-      InMetres -> False
+      SurfaceSpeed _ -> False
       SpeedLimit -> False
-    surfaceWord n = CommandWord (CommandName n) <$> elements [InMetres, SpeedLimit]
+    surfaceWord n = CommandWord (CommandName n) <$> elements [SurfaceSpeed 1000, SpeedLimit]
     dwellWord n = CommandWord (CommandName n) <$> elements [InSeconds, InMilliseconds]
 
 -- | Names of the commands for which a frame has a word or bits.

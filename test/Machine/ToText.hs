@@ -187,7 +187,7 @@ feedLines f =
            ByCode c -> "code " <> Decimal.whole (codeNumber c)
        ]
     <> [ "per-turn "
-           <> Decimal.exact (1 / 10 ^ turnDecimals t)
+           <> Decimal.exact (turnStep t)
            <> " mm/rev "
            <> Decimal.whole (lowestTurn t)
            <> ".."
@@ -241,7 +241,7 @@ commandLines o =
       Diameter -> ["set " <> quoted n <> " diameter"]
       InSeconds -> ["set " <> quoted n <> " seconds"]
       InMilliseconds -> ["set " <> quoted n <> " milliseconds"]
-      InMetres -> ["set " <> quoted n <> " cutting-speed"]
+      SurfaceSpeed _ -> ["set " <> quoted n <> " cutting-speed"]
       SpeedLimit -> ["set " <> quoted n <> " limit"]
       Step t ->
         block

@@ -1,6 +1,7 @@
 -- | Completion and the forms of calls.
 module Query.CompletionSpec (spec) where
 
+import Base.Quantity (LengthUnit (..))
 import Base.Region (Region (..))
 import Data.Text (Text)
 import Data.Text qualified as Text
@@ -9,6 +10,7 @@ import Query.Completion qualified as Completion
 import Query.Marked (header, look, marked)
 import Query.Signature (Signature (..))
 import Query.Signature qualified as Signature
+import Query.Snippet qualified as Snippet
 import Test.Hspec
 
 spec :: Spec
@@ -37,6 +39,15 @@ statements = do
   it "inserts the rest of a statement" $
     [snippet i | i <- items' "part p\n^", label i == "clearance"]
       `shouldBe` ["clearance ${1:3 mm}"]
+  it "gives usual sizes in inches in a program in inches" $ do
+    let snippetOf name text = [snippet i | i <- items' text, label i == name]
+    snippetOf "tool" "part p\nunits in\n^" `shouldBe` ["tool mill(diameter ${1:0.25 in})"]
+    snippetOf "plunge" "part p\nunits in\nmill a outside {\n^\n}"
+      `shouldBe` ["plunge ${1:1 in/min}"]
+    snippetOf "part" "units in\n^" `shouldBe` ["part ${1:name} \"${2:title}\""]
+  it "has an example in inches for every size in mm" $
+    filter (" mm" `Text.isInfixOf`) (map (Snippet.inUnit Inches . snd) Snippet.statements)
+      `shouldBe` []
   it "offers nothing in a comment and in a title" $ do
     at' "part p -- mi^\n" `shouldBe` Nothing
     at' "part p \"mi^ll\"\n" `shouldBe` Nothing

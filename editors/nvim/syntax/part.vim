@@ -35,7 +35,7 @@ syntax keyword partFunction parallel perpendicular circle concentric distance di
 syntax keyword partFunction closed_spline polyline parabola arcs closed_arcs fit sections rows_of points_of point_at_x point_along
 syntax keyword partFunction length_along start_of end_of tangent_of normal_of curvature_of moved rotated mirrored scaled
 syntax keyword partFunction reversed row grid around count_of item_of lift sin cos tan asin acos atan2 sqrt abs min max floor
-syntax match partUnit /\(\d\s*\)\@<=\(mm\|cm\|m\|in\)\(\/min\|\/rev\)\?\>/
+syntax match partUnit /\(\d\s*\)\@<=\(\(mm\|cm\|m\|in\)\(\/min\|\/rev\)\?\|ft\/min\)\>/
 syntax match partUnit /\(\d\s*\)\@<=\(deg\|rad\|rpm\)\>/
 
 highlight default link partComment Comment

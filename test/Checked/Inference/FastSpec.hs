@@ -1,6 +1,7 @@
 -- | The fast check of literals agrees with full type inference.
 module Checked.Inference.FastSpec (spec) where
 
+import Base.Quantity (LengthUnit (..))
 import Base.Region (Region (..))
 import Base.Result (Result (..))
 import Checked.Error (Error)
@@ -56,7 +57,7 @@ checkedBy check text = case output parsed of
   Nothing -> ""
   Just program ->
     let checked = check program
-     in withoutNumbers (show (map Error.toReport (errors checked), output checked))
+     in withoutNumbers (show (map (Error.toReport Millimetres) (errors checked), output checked))
   where
     parsed = Parser.parse 0 text :: Result () Surface.Error Surface.Program
     withoutNumbers shown =
