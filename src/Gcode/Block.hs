@@ -17,9 +17,12 @@ module Gcode.Block
 where
 
 import Base.Decimal qualified as Decimal
-import Data.Char (isAsciiLower, isAsciiUpper, isDigit, toUpper)
+import Control.Applicative ((<|>))
+import Data.Char (isAsciiLower, isAsciiUpper, isDigit, isSpace, toUpper)
+import Data.List (find)
 import Data.Text (Text)
 import Data.Text qualified as Text
+import Machine.ProgramForm (Dialect (..))
 
 -- | One line of a file.
 data GcodeBlock = GcodeBlock
@@ -39,7 +42,9 @@ data GcodeWord = GcodeWord
     letter :: Char,
     number :: GcodeNumber,
     -- | first column of the word, from 1
-    column :: Int
+    column :: Int,
+    -- | true if the number is written with a point
+    hasPoint :: Bool
   }
   deriving stock (Eq, Show)
 
@@ -56,6 +61,14 @@ data Fault = Fault Int Int FaultReason
 data FaultReason
   = -- | a character that begins no word
     StrayCharacter Char
+  | -- | a character that this control reads in another way than others
+    OtherMeaning Char
+  | -- | a character on which the control acts at once, wherever it stands
+    RealTimeCharacter Char
+  | -- | an end of a line of one control in the middle of a line of another
+    LoneReturn
+  | -- | a comment that the control carries out
+    ActiveComment
   | -- | a letter without a number
     NumberMissing Char
   | -- | a number with more digits than the proof can hold
@@ -74,6 +87,8 @@ data FaultReason
     WordMissing Text Text
   | -- | a word that no other word of the line uses
     UnusedWord Text
+  | -- | a number without a point, of this word
+    PointMissing Text
   | -- | a number that should be whole, of this word
     NotWhole Text
   | -- | a number that should not be negative, of this word
@@ -93,21 +108,59 @@ data FaultReason
 -- | Lines of a file, numbered from @first@ on; a fault for the first line that cannot be divided
 -- into words. A line that consists of a percent sign begins the program; a second one ends it, and
 -- what follows is not read.
-blocks :: Int -> Text -> Either Fault [GcodeBlock]
-blocks first file =
+blocks :: Dialect -> Int -> Text -> Either Fault [GcodeBlock]
+blocks dialect first file =
   concat <$> traverse block (upToEnd False (zip [first ..] (map bare (Text.lines file))))
   where
     bare = Text.dropWhileEnd (== '\r')
+    hasPercents = dialect `elem` [LinuxCnc, Fanuc]
     upToEnd begun list = case list of
       [] -> []
       (n, line) : more
-        | Text.strip line == "%" -> if begun then [] else upToEnd True more
+        | hasPercents && Text.strip line == "%" -> if begun then [] else upToEnd True more
         | otherwise -> (n, line) : upToEnd (begun || not (Text.null (Text.strip line))) more
-    block (n, line) = case wordsOf n line of
+    block (n, line) = case maybe (wordsOf n line) Left (signFault dialect n line) of
       Left fault -> Left fault
       Right (ws, cs)
         | null ws && null cs -> Right []
         | otherwise -> Right [GcodeBlock n ws cs ("/" `Text.isPrefixOf` Text.stripStart line)]
+
+-- | Fault of a line in which the control reads a character in another way than 'wordsOf' does.
+--
+-- Sources: protocol.c and serial.c of GRBL 1.1 (real-time commands, ends of lines, the percent
+-- sign); parser.cpp of Marlin 2 (parentheses and small letters only with options of the build);
+-- LinuxCNC, G-code overview (active comments); Fanuc and Haas (a semicolon ends the block).
+signFault :: Dialect -> Int -> Text -> Maybe Fault
+signFault dialect n line
+  | Just at <- columnOf (== '\r') line = Just (Fault n at LoneReturn)
+  | otherwise = case dialect of
+    LinuxCnc -> Fault n 1 ActiveComment <$ find isActive (commentsOf line)
+    Grbl -> character RealTimeCharacter isRealTime line <|> character OtherMeaning (== '%') bare
+    Marlin -> character OtherMeaning isForeign (Text.takeWhile (/= ';') line)
+    Fanuc
+      | (code, rest) <- Text.breakOn ";" bare,
+        not (Text.null (Text.strip (Text.drop 1 rest))) ->
+        Just (Fault n (Text.length code + 1) (OtherMeaning ';'))
+      | otherwise -> Nothing
+  where
+    character reason test text =
+      (\at -> Fault n at (reason (Text.index text (at - 1)))) <$> columnOf test text
+    columnOf test text = (+ 1) <$> Text.findIndex test text
+    isRealTime c = c `elem` ("!?~" :: String) || c > '~' || c < ' ' && c /= '\t'
+    isForeign c = isAsciiLower c || c `elem` ("(/%" :: String)
+    isActive comment =
+      any
+        (`Text.isPrefixOf` Text.toLower (Text.filter (not . isSpace) comment))
+        ["py,", "pyrun", "pyreload", "log", "probeopen", "probeclose", "abort"]
+    commentsOf text = either (const []) snd (wordsOf n text)
+    -- Comments in parentheses are blanks of the same length.
+    bare = blanked line
+    blanked text = case Text.breakOn "(" text of
+      (before, rest)
+        | Text.null rest -> before
+        | otherwise ->
+          let (comment, after) = Text.breakOn ")" rest
+           in before <> Text.replicate (Text.length comment + 1) " " <> blanked (Text.drop 1 after)
 
 -- | Words and comments of the line with a number.
 wordsOf :: Int -> Text -> Either Fault ([GcodeWord], [Text])
@@ -131,7 +184,8 @@ wordsOf n line = go 1 line
           Just (Right (number, after)) -> do
             let taken = Text.length rest - Text.length after
             (ws, cs) <- go (at + 1 + taken) after
-            Right (GcodeWord (toUpper c) number at : ws, cs)
+            let hasPoint = "." `Text.isInfixOf` Text.take taken rest
+            Right (GcodeWord (toUpper c) number at hasPoint : ws, cs)
         | otherwise -> Left (Fault n at (StrayCharacter c))
 
 -- | Number at the beginning of a text, and the text behind it. Nothing if no number begins there;

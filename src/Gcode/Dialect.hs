@@ -41,7 +41,7 @@ gKnowledge dialect code
           <> [970, 980, 990]
       Grbl -> common <> [400, 530, 490, 610, 800, 911, 930, 940]
       Marlin -> common
-      Fanuc -> common <> [280, 400, 530, 430, 490, 610, 640, 800, 940, 950, 980, 990]
+      Fanuc -> common <> [280, 400, 500, 530, 430, 490, 610, 640, 690, 800, 940, 950, 980, 990]
     unproven = case dialect of
       LinuxCnc ->
         [50, 51, 52, 53, 100, 172, 182, 192, 280, 281, 300, 301, 330, 331, 410, 411, 420, 421]
@@ -53,8 +53,8 @@ gKnowledge dialect code
         [50, 60, 100, 110, 120, 260, 270, 280, 290, 300, 310, 320, 330, 340, 350, 380]
           <> [420, 425, 530, 591, 592, 593, 600, 610, 760, 800, 920]
       Fanuc ->
-        [50, 90, 100, 110, 150, 160, 270, 290, 300, 310, 410, 420, 440, 500, 510, 520, 600, 620]
-          <> [630, 650, 660, 670, 680, 690, 730, 740, 760, 810, 820, 830, 840, 850, 860, 870, 880]
+        [50, 90, 100, 110, 150, 160, 270, 290, 300, 310, 410, 420, 440, 510, 520, 600, 620]
+          <> [630, 650, 660, 670, 680, 730, 740, 760, 810, 820, 830, 840, 850, 860, 870, 880]
           <> [890, 920, 930, 960, 970, 541, 1030, 1870]
 
 -- | Knowledge of the M word with this number of tenths.
@@ -96,8 +96,9 @@ dwellPerUnit dialect = case dialect of
   Fanuc -> 0.001
 
 -- | Modal group of a G word: a line may have one word of each group.
-groupOfG :: Int -> Int
-groupOfG code
+groupOfG :: Dialect -> Int -> Int
+groupOfG dialect code
+  | code == 800 && dialect == Fanuc = 9
   | code `elem` [0, 10, 20, 30, 800] = 1
   | code `elem` [170, 180, 190] = 2
   | code `elem` [900, 910] = 3
@@ -113,9 +114,11 @@ groupOfG code
   | code `elem` [70, 80] = 15
   | otherwise = 0
 
--- | Modal group of an M word: a line may have one word of each group.
-groupOfM :: Int -> Int
-groupOfM code
+-- | Modal group of an M word: a line may have one word of each group. Fanuc and Haas have one M
+-- word in a line.
+groupOfM :: Dialect -> Int -> Int
+groupOfM dialect code
+  | dialect == Fanuc = 4
   | code `elem` [0, 10, 20, 300] = 4
   | code == 60 = 6
   | code `elem` [30, 40, 50] = 7

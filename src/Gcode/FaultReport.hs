@@ -6,6 +6,7 @@ where
 
 import Base.Decimal qualified as Decimal
 import Base.Region (Region)
+import Data.Char (isPrint, ord)
 import Data.Text (Text)
 import Data.Text qualified as Text
 import Gcode.Block (Fault (..), FaultReason (..))
@@ -24,6 +25,37 @@ wordsOf :: FaultReason -> (Text, [Text], [Text])
 wordsOf reason = case reason of
   StrayCharacter c ->
     ("the character " <> quoted (Text.singleton c) <> " begins no word", [noExpressions], [])
+  OtherMeaning c ->
+    ( quoted (Text.singleton c) <> " means something else on this control",
+      ["It would refuse the line, leave it out, or carry out what stands behind this character."],
+      [ case c of
+          '(' -> "Write the comment behind ‘;’."
+          ';' -> "Write the comment in parentheses."
+          '%' -> "Remove it."
+          '/' -> "Remove it, or remove the line."
+          _ -> "Write it as a capital letter."
+      ]
+    )
+  RealTimeCharacter c ->
+    ( "the control acts at once on the character " <> shown c,
+      ["It does so in comments too: it may hold, stop, or change the feed."],
+      ["Remove the character."]
+    )
+  LoneReturn ->
+    ( "a carriage return is in the middle of the line",
+      ["Some controls end the line here, and carry out what follows."],
+      ["Write the file with the usual ends of lines."]
+    )
+  ActiveComment ->
+    ( "the control carries out this comment",
+      ["LinuxCNC runs Python behind ‘py’, and writes files behind ‘log’ and ‘probeopen’."],
+      ["Remove the comment, or begin it with another word."]
+    )
+  PointMissing w ->
+    ( w <> " has no point",
+      ["Depending on its parameters, the control may take it for a thousandth."],
+      ["Write " <> w <> "."]
+    )
   NumberMissing c ->
     ( "the letter " <> Text.singleton c <> " has no number",
       [noExpressions],
@@ -87,6 +119,7 @@ wordsOf reason = case reason of
     )
   where
     quoted w = "\8216" <> w <> "\8217"
+    shown c = if isPrint c then quoted (Text.singleton c) else "number " <> Decimal.whole (ord c)
 
 -- | Reason for a text that is no word.
 noExpressions :: Text

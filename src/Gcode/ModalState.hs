@@ -103,6 +103,8 @@ data ModalState = ModalState
     spindle :: Modal Spindle,
     speed :: Modal Double,
     speedMode :: Modal SpeedMode,
+    -- | units when the control took the speed; LinuxCNC keeps a cutting speed in them
+    speedUnits :: Modal Units,
     coolant :: Modal Coolant,
     pathMode :: Modal PathMode,
     -- | true if the words of X are diameters (G7), false if they are radii (G8)
@@ -134,6 +136,7 @@ initial dialect =
       spindle = Unset,
       speed = Unset,
       speedMode = ifFixed ConstantTurns,
+      speedUnits = Unset,
       coolant = Unset,
       pathMode = ifFixed ExactPath,
       diameters = case dialect of

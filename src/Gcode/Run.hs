@@ -47,6 +47,8 @@ data Action
     Stops
   | -- | M1
     StopsOnDemand
+  | -- | the file ends without a word that ends the program
+    FileEnds
   | -- | M2 or M30
     Ends
   deriving stock (Eq, Show)
@@ -86,11 +88,13 @@ data Running = Running {modal :: ModalState, place :: ToolPlace, isEnded :: Bool
 -- Lines are numbered from @first@ on.
 run :: ProgramForm -> Maybe Int -> Int -> Text -> Either Fault [Step]
 run form tool first text = do
-  lines' <- blocks first text
+  lines' <- blocks (dialect form) first text
+  checkNames lines'
   when (null lines') (Left (Fault first 1 NoWords))
   checkLengths form first text
-  (_, steps) <- foldM next (begin, []) lines'
-  pure (concat (reverse steps))
+  (final, steps) <- foldM next (begin, []) lines'
+  let end = [Step (lineNumber (last lines')) (modal final) FileEnds | not (isEnded final)]
+  pure (concat (reverse (end : steps)))
   where
     state0 = initial (dialect form)
     begin =
@@ -102,6 +106,14 @@ run form tool first text = do
     next (now, done) b = do
       (now', steps) <- runBlock form now b
       pure (now', steps : done)
+
+-- | Refuses the name of a program behind the first words of a file: another program begins there.
+checkNames :: [GcodeBlock] -> Either Fault ()
+checkNames list = case filter (not . null . gcodeWords) list of
+  [] -> Right ()
+  _ : more -> forM_ more $ \b ->
+    forM_ [w | w <- gcodeWords b, letter w == 'O'] $ \w ->
+      faultOf b w (UnprovenWord (wordText w))
 
 -- | Refuses lines that are longer than the control reads.
 checkLengths :: ProgramForm -> Int -> Text -> Either Fault ()
@@ -147,8 +159,8 @@ runBlock form now b = do
 sorted :: ProgramForm -> GcodeBlock -> Either Fault Sorted
 sorted form b = do
   checkForm form b
-  gs <- codes 'G' (gKnowledge (dialect form)) groupOfG
-  ms <- codes 'M' (mKnowledge (dialect form)) groupOfM
+  gs <- codes 'G' (gKnowledge (dialect form)) (groupOfG (dialect form))
+  ms <- codes 'M' (mKnowledge (dialect form)) (groupOfM (dialect form))
   let others = [w | w <- gcodeWords b, letter w `notElem` ("GMN" :: String)]
   forM_ (gcodeWords b) $ \w ->
     unless
@@ -188,8 +200,20 @@ checkForm form b
     w : _ <- gcodeWords b,
     letter w `notElem` ("GMT" :: String) =
     faultOf b w NoMotionMode
+  | dialect form == Marlin,
+    [w] <- commandWords,
+    letter w == 'M',
+    isWhole (number w) `elem` [Just 0, Just 1],
+    -- With a time the control goes on by itself.
+    other : _ <- filter (/= w) (gcodeWords b) =
+    faultOf b other (UnprovenWord (wordText other))
+  | dialect form == Fanuc,
+    w : _ <- filter isWithoutPoint (gcodeWords b) =
+    faultOf b w (PointMissing (wordText w))
   | otherwise = Right ()
   where
+    isWithoutPoint w =
+      letter w `elem` ("XYZIJKRFQ" :: String) && not (hasPoint w) && digits (number w) /= 0
     commandWords = [w | w <- gcodeWords b, letter w `elem` ("GM" :: String)]
 
 faultAt :: GcodeBlock -> Int -> FaultReason -> Either Fault a
@@ -216,6 +240,8 @@ modesBefore dialect' s m = do
       { feedMode = choose (feedMode m) [(930, InverseTime), (940, PerMinute), (950, PerTurn)],
         speed = maybe (speed m) (SetAt n . decimal) (given 'S' s),
         speedMode = choose (speedMode m) [(960, ConstantCutting limit), (970, ConstantTurns)],
+        -- The control starts the spindle before it sets the units of the same line.
+        speedUnits = if isOfSpeed then units m else speedUnits m,
         selectedTool = maybe (selectedTool m) (SetAt n) tool,
         units = newUnits,
         feed = feedAfter
@@ -232,6 +258,10 @@ modesBefore dialect' s m = do
       Nothing
         | dialect' == LinuxCnc && any (`elem` gCodes s) [930, 940, 950] -> SetAt n 0
         | otherwise -> feed m
+    isOfSpeed =
+      isJust (given 'S' s)
+        || any (`elem` gCodes s) [960, 970]
+        || any (`elem` mCodes s) [30, 40]
     n = lineNumber (block s)
     choose = chosen n (gCodes s)
     limit = round . decimal <$> given 'D' s
@@ -326,20 +356,18 @@ blended s m = Blended $ case (given 'P' s, given 'Q' s) of
   where
     mm = mmOfNumber m
 
--- | The motion mode after a line. G80 ends all motion modes.
+-- | The motion mode after a line. G80 ends all motion modes; Fanuc may have another one beside it.
 motionAfter :: Sorted -> ModalState -> Modal MotionMode
-motionAfter s m
-  | 800 `elem` gCodes s = Unset
-  | otherwise =
-    chosen
-      (lineNumber (block s))
-      (gCodes s)
-      (motionMode m)
-      [ (0, RapidMode),
-        (10, LinearMode),
-        (20, ArcMode Clockwise),
-        (30, ArcMode CounterClockwise)
-      ]
+motionAfter s m =
+  chosen
+    (lineNumber (block s))
+    (gCodes s)
+    (if 800 `elem` gCodes s then Unset else motionMode m)
+    [ (0, RapidMode),
+      (10, LinearMode),
+      (20, ArcMode Clockwise),
+      (30, ArcMode CounterClockwise)
+    ]
 
 -- | The position in work coordinates after a change of the state from @before@ to @after@: unknown
 -- where the zero of the coordinates has changed.
@@ -466,7 +494,9 @@ targetOf form s now = ToolPlace <$> along 'X' placeX <*> along 'Y' placeY <*> al
 -- increments of 0 is understood, because any other goes through another point first.
 toReference :: ProgramForm -> Sorted -> Running -> Either Fault (Running, [Step])
 toReference form s now
-  | retract form /= ReferencePoint = faultAt b 1 (UnprovenWord "G28")
+  -- The zero of a Haas is its reference point.
+  | retract form `notElem` [ReferencePoint, MachineHeight (Mm 0)] =
+    faultAt b 1 (UnprovenWord "G28")
   | null axes = faultAt b 1 (WordMissing "Z0" "G28")
   | valueOf (distances (modal now)) /= Just Incremental = faultAt b 1 (WordMissing "G91" "G28")
   | any ((/= 0) . digits . number) axes = faultAt b 1 (UnprovenWord "G28")

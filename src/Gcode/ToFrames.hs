@@ -125,6 +125,7 @@ converted setting@FileSetting {machine} c step = case action step of
     | otherwise -> event (Part.Dwell t)
   Stops -> event Part.ProgramStop
   StopsOnDemand -> event Part.OptionalStop
+  FileEnds -> onSite
   Ends ->
     foldl'
       (\c' ws -> addCommands (line step) ws (flushed (line step) c'))
@@ -154,11 +155,12 @@ travelled setting@FileSetting {machine, level} c step travel = case centreAt (to
   Just (target, off)
     | maybe False (heightOf target >=) level -> onSite {whereabouts = Away}
     | isLower target -> coming setting step target (losing off c)
-    | isAway onSite || isNothing (centreAt (from travel)) ->
+    | isStraight && isAway onSite || isNothing (centreAt (from travel)) ->
       coming setting step target (losing off onSite)
     | otherwise -> moved (losing off onSite) target
   where
     onSite = landed setting c
+    isStraight = isNothing (about travel)
     isLower target = case whereabouts c of
       Landing p _ -> mode travel == RapidMode && isUnder p target
       Working -> False
@@ -262,7 +264,7 @@ speedOf m = case (valueOf (speed m), valueOf (speedMode m)) of
   (Just v, _) -> TurnNumber (round v)
   where
     -- In inches a cutting speed is in feet per minute.
-    perUnit = if valueOf (units m) == Just Inches then 304.8 else 1000 :: Double
+    perUnit = if valueOf (speedUnits m) == Just Inches then 304.8 else 1000 :: Double
 
 -- | Adds a frame of commands.
 addCommands :: Int -> [(Machine.CommandName, Int)] -> Converting -> Converting

@@ -82,6 +82,8 @@ data ControlFault
     ThroughProfile
   | -- | a constant cutting speed without a limit of the turns of the spindle
     NoSpeedLimit
+  | -- | the file ends while the spindle turns
+    SpindleLeftOn
   deriving stock (Eq, Ord, Show)
 
 -- | Mode in which the control reads numbers, or computes the path.
@@ -130,6 +132,7 @@ changesReading f = case f of
   LatheOrder -> False
   ThroughProfile -> False
   NoSpeedLimit -> False
+  SpindleLeftOn -> False
 
 -- | Words of a report: its title, the label at the motion, the label at the line that set the wrong
 -- value, the reason and the remedy.
@@ -181,6 +184,7 @@ codeOf f = case f of
   LatheOrder -> "E0737"
   ThroughProfile -> "E0738"
   NoSpeedLimit -> "E0739"
+  SpindleLeftOn -> "E0741"
 
 -- | Words for a fault. @isUnset@ is true if no line has set the value.
 wordsOf :: ProgramForm -> Bool -> ControlFault -> Wording
@@ -217,6 +221,7 @@ wordsOf form isUnset f = case f of
   LatheOrder -> latheOrder
   ThroughProfile -> throughProfile
   NoSpeedLimit -> noSpeedLimit
+  SpindleLeftOn -> spindleLeftOn
 
 -- | Labels of motions.
 cuts, descends :: Text
@@ -549,4 +554,16 @@ noSpeedLimit =
         "Near the axis the control turns the spindle as fast as it can, and the chuck may lose the \
         \part.",
       remedy = "Write the largest speed with D, as in G96 D2500 S180."
+    }
+
+spindleLeftOn :: Wording
+spindleLeftOn =
+  Wording
+    { title = "the spindle still turns at the end of the file",
+      here = "the file ends here",
+      there = "starts the spindle",
+      reason =
+        "No word ends the program, so the control leaves the spindle on, and the operator reaches \
+        \to the tool.",
+      remedy = "Write M5 as the last line."
     }

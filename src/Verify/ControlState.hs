@@ -76,6 +76,11 @@ judged form demand step = case action step of
   Dwells _ -> []
   Stops -> []
   StopsOnDemand -> []
+  FileEnds ->
+    [ ControlFinding (line step) (lineOf (spindle (state step))) SpindleLeftOn
+      | not (isByHand demand),
+        Just (SpindleTurning _) <- [valueOf (spindle (state step))]
+    ]
   Ends -> []
   where
     isCut travel = mode travel /= RapidMode
@@ -159,7 +164,8 @@ cutState demand step travel =
       Nothing -> [finding (speedMode m) (ModeUnknown SpeedUnit) | isJust (latheDemand demand)]
       Just ConstantTurns -> []
       Just (ConstantCutting Nothing) -> [finding (speedMode m) NoSpeedLimit]
-      Just (ConstantCutting (Just _)) -> []
+      Just (ConstantCutting (Just _)) ->
+        [finding (speedUnits m) UnitsUnknown | isNothing (valueOf (speedUnits m))]
     feedFindings = case valueOf (feedMode m) of
       Nothing -> [finding (feedMode m) (ModeUnknown FeedUnit)]
       -- Without units no feed is known, but this is a finding of its own.
@@ -244,8 +250,11 @@ unsafeMoves demand step travel
     isBelow free = case placeZ (from travel) of
       At z -> z < free
       _ -> False
+    -- A full circle ends where it begins.
     isAloneZ =
-      placeX (from travel) == placeX (to travel) && placeY (from travel) == placeY (to travel)
+      isNothing (about travel)
+        && placeX (from travel) == placeX (to travel)
+        && placeY (from travel) == placeY (to travel)
     hasPlane p = isAt (placeX p) && isAt (placeY p)
     comesDown = case placeZ (to travel) of
       At z -> maybe True (z <) (level demand)

@@ -107,7 +107,8 @@ raisedElsewhere =
         "E0737",
         "E0738",
         "E0739",
-        "E0740"
+        "E0740",
+        "E0741"
       ]
     ),
     ( "files and the command line",
