@@ -377,7 +377,11 @@ sheet =
 tape :: Parser FilePath
 tape =
   Opt.strArgument
-    (Opt.metavar "TAPE" <> Opt.help "A tape; - for standard input" <> Opt.action "file")
+    ( Opt.metavar "TAPE"
+        <> Opt.help
+          "A tape; - for standard input. For GRBL and Marlin, the files of all tools in their order"
+        <> Opt.action "file"
+    )
 
 target :: Parser Text
 target =

@@ -121,7 +121,7 @@ toReport unit machine err = case err of
               then feedFix "Write its largest feed" region (roundedTo unit floor highest)
               else feedFix "Write its lowest feed" region (roundedTo unit ceiling lowest)
           ],
-        hints = perTurn asked
+        hints = perTurn unit asked
       }
   TurnFeedOutOfRange region (Mm lowest) (Mm highest) ->
     (report Report.Error "E0501" (InSource region) (machineName machine <> " has no such feed"))
@@ -175,7 +175,7 @@ toReport unit machine err = case err of
               then feedFix "Write the largest feed for this move" region (limited floor high)
               else feedFix "Write the lowest feed for this move" region (limited ceiling low)
           ],
-        hints = perTurn asked
+        hints = perTurn unit asked
       }
     where
       limited :: (Double -> Int) -> Double -> Text
@@ -500,9 +500,13 @@ warningReport unit machine warning = case warning of
     turns n = Decimal.short 1 n <> " turns a minute"
 
 -- | The hint for a feed that is so low that it may be meant for one turn of the spindle.
-perTurn :: Feed -> [Text]
-perTurn (Feed f) =
-  [ "A feed without a unit is in mm/min. Write mm/rev for a feed for one turn of the spindle."
+perTurn :: LengthUnit -> Feed -> [Text]
+perTurn unit (Feed f) =
+  [ "A feed without a unit is in "
+      <> Decimal.unitText unit
+      <> "/min. Write "
+      <> Decimal.unitText unit
+      <> "/rev for a feed for one turn of the spindle."
     | f < 2
   ]
 

@@ -7,6 +7,7 @@ where
 
 import Base.Decimal qualified as Decimal
 import Base.PulseVector (Pulses3 (..))
+import Base.Quantity (LengthUnit (..), Mm (..))
 import Base.Region (Located (..), Region)
 import Data.List (find, mapAccumL)
 import Data.Maybe (isNothing, mapMaybe)
@@ -115,10 +116,19 @@ withoutHeights machine path =
             <> " the program moves z, so the tool would cut from the first move on."
         ],
       hints =
-        [ "Write ‘clearance 5’ before the machining, and ‘depth 8’ in each ‘mill’, with your \
-          \heights."
+        [ "Write ‘clearance "
+            <> usual path (Mm 5)
+            <> "’ before the machining, and ‘depth "
+            <> usual path (Mm 8)
+            <> "’ in each ‘mill’, with your heights."
         ]
     }
+
+-- | A length for a hint, with its unit: in an inch program the same in tenths of an inch.
+usual :: Toolpath -> Mm -> Text
+usual path (Mm x) = case Toolpath.unit path of
+  Millimetres -> Decimal.mm (Mm x)
+  Inches -> Decimal.short 1 (x / 25.4) <> " in"
 
 -- | Error of a program at whose start the tool would come down below the clearance height.
 lowStart :: Machine -> Toolpath -> FrameProgram -> [Report]
@@ -126,20 +136,21 @@ lowStart machine path program = case Heading.clearances path of
   heights@(_ : _)
     | down < maximum heights ->
       [ (at (region (start path)) "E0513" "the program begins below its clearance height")
-          { label = "at the height " <> Decimal.mm down,
+          { label = "at the height " <> written down,
             message =
               [ "The tool comes down to this height first, and the moves from there may hit a \
                 \clamp. The clearance height is "
-                  <> Decimal.mm (maximum heights)
+                  <> written (maximum heights)
                   <> "."
               ],
             hints =
-              ["Begin at this height, as in ‘from (0, 0, " <> Decimal.mm (maximum heights) <> ")’."]
+              ["Begin at this height, as in ‘from (0, 0, " <> written (maximum heights) <> ")’."]
           }
       ]
   _ -> []
   where
     down = Frame.height machine (landingOf program)
+    written = Decimal.inUnit (Toolpath.unit path)
 
 -- | Error of a program whose first tool has no number.
 toolErrors :: Machine -> ProgramForm -> FileHeading -> Toolpath -> [Report]
@@ -155,7 +166,10 @@ toolErrors machine form heading path =
           ],
         hints =
           [ "Write the number before the tool, as in ‘tool 1 "
-              <> maybe "mill(diameter 8 mm)" (const "turn(nose 0.8 mm, tip 2)") (lathe form)
+              <> maybe
+                ("mill(diameter " <> usual path (Mm 8) <> ")")
+                (const "turn(nose 0.8 mm, tip 2)")
+                (lathe form)
               <> "’."
           ]
       }
@@ -182,20 +196,25 @@ safeErrors machine form heading path program = case retract form of
                 <> " does not know where its z axis stands, so the tool first goes up to a height \
                    \above everything. The program has to give that height."
             ],
-          hints = ["Write ‘safe 40’ before the machining, with a height above all clamps."]
+          hints =
+            [ "Write ‘safe "
+                <> usual path (Mm 40)
+                <> "’ before the machining, with a height above all clamps."
+            ]
         }
     tooLow safe =
       (at (region (start path)) "E0515" "the program goes above its safe height")
         { message =
             [ "The safe height is "
-                <> Decimal.mm safe
+                <> written safe
                 <> ", and the program goes up to "
-                <> Decimal.mm highest
+                <> written highest
                 <> "."
             ],
           hints = ["Write a higher ‘safe’, or let the program stay below it."]
         }
     highest = Frame.height machine (Pulses3 0 0 (Heading.highest program))
+    written = Decimal.inUnit (Toolpath.unit path)
 
 -- | Error of a rapid move whose axes arrive one after the other, where only the straight line is
 -- free.

@@ -75,21 +75,23 @@ data Writing = Writing
 write :: Machine -> ProgramForm -> FileHeading -> Maybe Mm -> FrameProgram -> [ToolFile]
 write machine form given bound program =
   [ ToolFile (if isOneFile then Nothing else toolOf part) (Text.unlines (fileLines context part))
-    | part <- parts
+    | (k, made) <- zip [1 ..] parts,
+      let part = made {fileNumber = (k, length parts)}
   ]
   where
     context = Context {machine, form, heading, bound}
     heading = Heading.raised machine form program given
     isOneFile = ProgramForm.changesTools (dialect form)
     frames = dropEnd (length (Command.finalFrames machine)) (plannedFrames program)
-    whole = FilePart (firstTool heading) (start program) False frames
+    whole = FilePart (1, 1) (firstTool heading) (start program) False frames
     parts = if isOneFile then [whole] else byTool machine whole
     dropEnd n xs = take (length xs - n) xs
 
--- | Frames of one file: the tool that is in the spindle first, the position before the first frame,
--- and true if the coolant was on before it.
+-- | Frames of one file: which file of how many it is, the tool that is in the spindle first, the
+-- position before the first frame, and true if the coolant was on before it.
 data FilePart = FilePart
-  { toolOf :: Maybe Int,
+  { fileNumber :: (Int, Int),
+    toolOf :: Maybe Int,
     begins :: Pulses3,
     isCooled :: Bool,
     framesOf :: [PlannedFrame]
@@ -104,7 +106,8 @@ byTool machine part = case span (null . changesIn . frame) (framesOf part) of
     byTool
       machine
       FilePart
-        { toolOf = listToMaybe (changesIn (frame change)),
+        { fileNumber = (1, 1),
+          toolOf = listToMaybe (changesIn (frame change)),
           begins = begins part + sum (map (increment . frame) own),
           isCooled = last (isCooled part : coolantIn (map frame own)),
           framesOf = change {frame = withoutChange (frame change)} : more
@@ -186,29 +189,46 @@ headTexts :: Context -> FilePart -> [(Text, Text)]
 headTexts context@Context {machine, form, heading} part =
   [("part", partName heading <> (if title == "" then "" else ", " <> title))]
     <> [("machine", name)]
+    <> [ ("file", Decimal.whole k <> " of " <> Decimal.whole count)
+         | let (k, count) = fileNumber part,
+           count > 1
+       ]
     <> [("remark", remark form) | remark form /= ""]
     <> [("time", FileTime.timeText duration)]
     <> [ ("tool " <> Decimal.whole n, text)
          | (n, text) <- toolList heading,
            ProgramForm.changesTools (dialect form) || Just n == toolOf part
        ]
-    <> [("before the start", text) | text <- operatorTexts form heading]
+    <> [("before the start", text) | text <- operatorTexts form heading isFirst]
     <> [("the build needs", text) | dialect form == Marlin, text <- marlinTexts context part]
   where
+    isFirst = fst (fileNumber part) == 1
     duration = FileTime.timeOf machine (begins part) (map frame (framesOf part))
     title = partTitle heading
     MachineName name = Machine.name machine
 
--- | Tasks of the operator before the start.
-operatorTexts :: ProgramForm -> FileHeading -> [Text]
-operatorTexts form heading =
-  [ if ProgramForm.takesLengths (dialect form)
-      then "set the work offset G" <> Decimal.whole (workOffset heading) <> " and the tool lengths"
-      else "touch off x, y and z of this tool"
-  ]
+-- | Tasks of the operator before the start. In the first file of several the tool is touched off
+-- along all axes. Later ones leave the zero of x and y, at which the tools before have cut.
+operatorTexts :: ProgramForm -> FileHeading -> Bool -> [Text]
+operatorTexts form heading isFirst =
+  zeroTexts
     <> safeTexts
     <> ["switch the spindle on by hand" | isSpindleByHand heading]
   where
+    zeroTexts
+      | ProgramForm.takesLengths (dialect form) =
+        [ "set the work offset G"
+            <> Decimal.whole (workOffset heading)
+            <> " and the tool lengths"
+            <> otherOffsets
+        ]
+      | isFirst = ["touch off x, y and z of this tool"]
+      | otherwise = ["touch off z of this tool, and leave x and y"]
+    otherOffsets = case dialect form of
+      LinuxCnc -> ", without G92"
+      Fanuc -> ", without G92, G52, G51 and G68"
+      Grbl -> ""
+      Marlin -> ""
     safeTexts = case Heading.safeHeightOn form heading of
       Just z ->
         [ "the tool stands no higher than z " <> Decimal.inUnit (fileUnit form) z,

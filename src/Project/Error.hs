@@ -80,13 +80,13 @@ reportWith option err = case err of
                   ("Write its description in quotation marks: machine \"" <> name <> "\"")
                   region
                   ("\"" <> name <> "\"")
-              else Fix.exchange (advised <> n <> ".") region n
+              else chosen (Fix.exchange (advised <> n <> ".") region n)
             | Just region <- [place],
-              n <- take 1 (if isFile then [name] else similar)
+              n <- if isFile then [name] else similar
           ],
         hints =
           ["Write " <> option <> n <> "." | null place, not isFile, n <- take 1 similar]
-            <> [ "For G-code write iso6983; docs/machines.md describes the other controls."
+            <> [ "For G-code write iso6983; docs/machines.md describes the other machines."
                  | null similar,
                    not isFile,
                    gCode `elem` known
@@ -95,9 +95,12 @@ reportWith option err = case err of
     where
       isFile = MachineDescription.isDescription name
       advised = if isGCode then "For G-code write " else "Write "
+      -- Machines of the same family differ much, so the choice is left to the user.
+      chosen = if isGCode || length similar > 1 then Fix.proposed else id
       similar
+        | named@(_ : _) <- [n | n <- known, Text.toLower name `Text.isPrefixOf` n] = named
         | isGCode = [gCode]
-        | otherwise = Name.lookAlike name known <> Name.nearest name known
+        | otherwise = take 1 (Name.lookAlike name known <> Name.nearest name known)
       isGCode = gCode `elem` known && any (`Text.isPrefixOf` Text.toLower name) gCodeControls
       gCode = "iso6983"
   DescriptionMissing place file why ->

@@ -301,6 +301,8 @@ insertions f t =
       w `notElem` ["{", "}"],
       not (isSettingStart f) || (w, spelling (shape t)) `elem` settingWords || not (newLine t),
       not (isStatementStart f),
+      -- The place of a tool change comes after the tool.
+      w /= "at" || (shape <$> at f (k - 1)) /= Just (Word "change"),
       w /= "=" || Symbol "=" `notElem` [shape x | n <- lineOf f, n > k, Just x <- [at f n]]
   ]
     <> [ RepairCandidate
