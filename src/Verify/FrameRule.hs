@@ -115,7 +115,8 @@ positioned fs =
 -- | Differences between the planned frames with commands and the frames with commands on the tape,
 -- compared in pairs. An entry of both lists has the number of a frame from 1, the position in
 -- pulses where the frame begins, and its commands. An entry of the result has the number of a frame
--- on the tape, the planned commands, and those of the tape. If the positions of a pair differ by
+-- on the tape, the planned commands, and those of the tape. Frames that only one list has are
+-- found if at most 'mostSkipped' of them follow one another. If the positions of a pair differ by
 -- more than two pulses, or if 'isSamePlace' as in 'wrongCommands' is false for the pair, the
 -- planned frame counts as one without commands. Planned commands that are missing at the end of the
 -- tape get the number of their planned frame, but at least @frameCount@, the count of frames on the
@@ -129,8 +130,19 @@ inOrder ::
 inOrder isSamePlace frameCount = go
   where
     go own found = case (own, found) of
-      ((k, p, a) : as, (n, q, b) : bs)
-        | isNear p q && isSamePlace k n -> [(n, a, b) | a /= b] <> go as bs
+      (planned@(_, _, a) : as, read'@(n, _, b) : bs)
+        | isSame planned read' -> go as bs
+        | (gone, rest@(_ : _)) <- break (`isSame` read') (take mostSkipped own) ->
+          [(n, c, []) | (_, _, c) <- gone] <> go (rest <> drop mostSkipped own) found
+        | (more, rest@(_ : _)) <- break (isSame planned) (take mostSkipped found) ->
+          [(m, [], c) | (m, _, c) <- more] <> go own (rest <> drop mostSkipped found)
+        | isThere planned read' -> (n, a, b) : go as bs
         | otherwise -> (n, [], b) : go as bs
       (_, []) -> [(max k frameCount, a, []) | (k, _, a) <- own]
       ([], _) -> [(n, [], b) | (n, _, b) <- found]
+    isSame x@(_, _, a) y@(_, _, b) = a == b && isThere x y
+    isThere (k, p, _) (n, q, _) = isNear p q && isSamePlace k n
+
+-- | Largest count of frames with commands that 'inOrder' passes over at once.
+mostSkipped :: Int
+mostSkipped = 6

@@ -357,7 +357,7 @@ toReport unit machine finding = case finding of
         InFile
         ( frameWord n
             <> maybe
-              (" lacks the command " <> name)
+              (" lacks the command " <> name <> maybe "" ((" " <>) . Decimal.whole) wanted)
               (\v -> " gives the command " <> name <> " " <> Decimal.whole v)
               found
         )
