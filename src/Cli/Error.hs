@@ -41,6 +41,8 @@ data Error
   | -- | The range of the command line lies beyond the end of the tape. The arguments: the unit in
     -- which the range counts (frame, row or line), and the count of these units on the tape.
     NothingInRange Text Int
+  | -- | The tape of this machine is a text, so there is nothing to draw.
+    NotPunched Text
   | -- | The command line gives a value to the parameter of this name, but the program is an input
     -- sheet, which has no parameters.
     SheetAssigned Text
@@ -128,6 +130,10 @@ toReport err = case err of
               <> counted
               <> (if count == 1 then "." else "s.")
           ]
+      }
+  NotPunched machine ->
+    (wrong "E0819" InFile ("the tape of " <> machine <> " is a text, without holes"))
+      { hints = ["Leave -o out: then its lines are printed with their meaning."]
       }
   SheetAssigned name ->
     (wrong "E0913" InFile ("an input sheet has no parameters, so ‘" <> name <> "’ cannot be set"))

@@ -68,6 +68,7 @@ tapeRows :: Machine -> [[Text]]
 tapeRows m =
   [ ["tracks", Decimal.whole (tracks t)],
     ["from row to row", maybe "a text, not punched" Decimal.mm (pitch t)],
+    ["width", maybe "-" Decimal.mm (width t)],
     ["name of the file", "ends with ." <> suffix t],
     ["leader and trailer", blanks (leader t) <> " each"],
     [ "behind a frame",

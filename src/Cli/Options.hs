@@ -54,8 +54,9 @@ data Subcommand
   | Run RunOptions
   | -- | the program, the drawing to write
     Plot FilePath (Maybe FilePath)
-  | -- | the machine, without which the command fails; the rows to show; the tape
-    DrawTape (Maybe Text) RowRange FilePath
+  | -- | the machine, without which the command fails; the rows to show; the drawing to write, or
+    -- nothing for a picture in letters; the tape
+    DrawTape (Maybe Text) RowRange (Maybe FilePath) FilePath
   | -- | the machine, or nothing for the list of all machines; true for the text of the machine's
     -- description instead of a table
     Machines (Maybe Text) Bool
@@ -174,7 +175,7 @@ commands =
         "tape"
         "Draw the rows of a tape with their meaning"
         "partc tape -t lkp-01f flange.tape --frames 1..3"
-        (DrawTape <$> optional target <*> rangeOption <*> tape),
+        (DrawTape <$> optional target <*> rangeOption <*> optional drawingFile <*> tape),
       entry
         "plot"
         "Draw part, path, nodes and cutter as SVG"
@@ -424,6 +425,10 @@ rangeFrom least =
 
 outputFile :: Parser FilePath
 outputFile = outputOption "The file to write; - for standard output"
+
+drawingFile :: Parser FilePath
+drawingFile =
+  outputOption "An SVG drawing of the tape at its true size, instead of a picture in letters"
 
 outputOption :: String -> Parser FilePath
 outputOption help =

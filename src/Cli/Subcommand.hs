@@ -56,6 +56,7 @@ import Data.Text qualified as Text
 import Data.Text.Encoding qualified as Encoding
 import Draw.Plot qualified as Plot
 import Draw.TapeRows qualified as TapeRows
+import Draw.TapeSheet qualified as TapeSheet
 import Frame.Frame (Frame)
 import Frame.Frame qualified as Frame
 import Gcode.ToFrames (GcodeReading)
@@ -77,6 +78,7 @@ import Sheet.FromText qualified as Sheet
 import Sheet.ToSurface qualified as Sheet
 import Sheet.ToText qualified as Sheet
 import Sheet.Unsupported qualified as Unsupported
+import System.FilePath (takeFileName)
 import Tape.Damage (Damage)
 import Tape.Punch qualified as Tape
 import Tape.Tape (Tape (..))
@@ -107,7 +109,8 @@ perform reporter command = case command of
   Run options -> RunCommand.run reporter options
   Plot file output -> plot reporter file output
   Machines name asText -> machines reporter name asText
-  DrawTape target range tape -> drawTape reporter target range tape
+  DrawTape target range Nothing tape -> drawTape reporter target range tape
+  DrawTape target range (Just path) tape -> drawSheet reporter target range path tape
   Explain code -> explain reporter code
   LanguageServer -> LanguageServer.serve reporter
   Fmt checkOnly files ->
@@ -423,6 +426,23 @@ drawTape reporter target range tapeFile =
       case TapeRows.picture machine range drawn of
         Nothing -> failWith reporter (displayName tapeFile) (NothingInRange counted count)
         Just picture -> printResult reporter picture
+
+-- | Writes a drawing of those rows of a tape that are in @range@, at their true size, to @path@. A
+-- range outside of the tape is an error, and so is a tape that is a text.
+drawSheet :: Reporter -> Maybe Text -> TapeRows.RowRange -> FilePath -> FilePath -> IO Exit
+drawSheet reporter target range path tapeFile =
+  withTapeFile reporter target tapeFile $ \machine rows ->
+    if isNothing (Machine.pitch (Machine.medium machine))
+      then failWith reporter (displayName tapeFile) (NotPunched (nameOf machine))
+      else framesOfTape reporter tapeFile machine rows $ \read' -> do
+        let numbered = zip [1 ..] (Tape.rows machine 0 read')
+            (counted, count) = TapeRows.extent machine range (map snd numbered)
+            title = Text.pack (takeFileName (Text.unpack (displayName tapeFile)))
+        case TapeSheet.sheet machine title (TapeRows.chosen range numbered) of
+          Nothing -> failWith reporter (displayName tapeFile) (NothingInRange counted count)
+          Just drawing -> writeText reporter (displayName tapeFile) [tapeFile] (Just path) drawing
+  where
+    nameOf machine = let MachineName n = Machine.name machine in n
 
 -- | Reads a tape for which there is no program, and continues with its machine and its frames. The
 -- tape does not contain the position from which the cutter starts, so this is assumed to be 0.

@@ -12,6 +12,7 @@ module Draw.Svg
     area,
     rectangle,
     dot,
+    dots,
     ring,
     arrow,
     Anchor (..),
@@ -102,6 +103,17 @@ rectangle pen colour Area {leftmost, upper, rightmost, lower} =
 -- | Filled circle of a colour about point @p@; @radius@ in mm.
 dot :: Text -> Double -> Point -> Svg
 dot colour radius p = circle radius p ! Attribute.fill (toValue colour)
+
+-- | Filled circles of a colour and a diameter in mm about points. They are one element: lines
+-- without length, with round ends.
+dots :: Text -> Double -> [Point] -> Svg
+dots colour diameter points =
+  Svg.path
+    ! Attribute.d (toValue (Text.concat ["M" <> pair p <> "h0" | p <- points]))
+    ! Attribute.fill "none"
+    ! Attribute.stroke (toValue colour)
+    ! Attribute.strokeWidth (number diameter)
+    ! Attribute.strokeLinecap "round"
 
 -- | Circle about point @p@, drawn with a pen; @radius@ in mm.
 ring :: Pen -> Double -> Point -> Svg

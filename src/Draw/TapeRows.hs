@@ -5,6 +5,8 @@ module Draw.TapeRows
   ( RowRange (..),
     picture,
     extent,
+    chosen,
+    sprocket,
   )
 where
 

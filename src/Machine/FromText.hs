@@ -215,6 +215,7 @@ tapeFrom s = do
   Medium
     <$> required "tracks" "tracks 8" (countFrom "tracks" 1 8) section
     <*> required "pitch" "pitch 2.54 mm" pitchFrom section
+    <*> optional "width" Nothing widthFrom section
     <*> required "suffix" "suffix \"tape\"" suffixFrom section
     <*> required "leader" "leader 25" (countFrom "leader" 0 mostRows) section
     <*> required "gap" "gap 3" (countFrom "gap" 0 mostRows) section
@@ -223,7 +224,7 @@ tapeFrom s = do
     <*> optional "opening" "" quotedText section
     <*> optional "closing" "" quotedText section
     <* allowKeys
-      ["tracks", "pitch", "suffix", "leader", "gap", "even-shift", "spare", "opening", "closing"]
+      (Text.words "tracks pitch width suffix leader gap even-shift spare opening closing")
       []
       section
   where
@@ -232,6 +233,10 @@ tapeFrom s = do
     onePitch args = case args of
       [Located _ (Word "none")] -> Just (pure Nothing)
       [a, b] -> fmap (Just . Mm) <$> quantityIn "the pitch" "mm" 1000 a b
+      _ -> Nothing
+    widthFrom = withArguments ["width 25.4 mm"] oneWidth
+    oneWidth args = case args of
+      [a, b] -> fmap (Just . Mm) <$> quantityIn "the width" "mm" 1000 a b
       _ -> Nothing
     suffixFrom e = do
       t <- quotedText e

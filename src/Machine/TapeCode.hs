@@ -17,6 +17,8 @@ data Medium = Medium
     tracks :: Int,
     -- | distance between neighbouring rows; 'Nothing' for a text file
     pitch :: Maybe Mm,
+    -- | width of the tape; 'Nothing' for that of the standard
+    width :: Maybe Mm,
     -- | extension of a file's name, without the point
     suffix :: Text,
     -- | number of blank rows in the leader at the start of the tape; the trailer at its end has as

@@ -94,6 +94,7 @@ blankMachine forms arcKind how feedTable =
         Medium
           { tracks = 8,
             pitch = Just (Mm 2.54),
+            width = Nothing,
             suffix = "tape",
             leader = 0,
             gap = 0,
@@ -245,10 +246,12 @@ mediumOf tracks spare mark = do
   evenShift <- choose (0, 2)
   opening <- elements ["", mark, mark <> mark]
   closing <- elements ["", mark <> mark]
+  width <- elements [Nothing, Just (Mm 17.5), Just (Mm 25.4)]
   pure
     Medium
       { tracks,
         pitch = Just (Mm 2.54),
+        width,
         suffix = "tape",
         leader,
         gap,

@@ -51,17 +51,19 @@ quoted t = "\"" <> Text.concatMap escaped t <> "\""
 tapeLines :: Medium -> [Text]
 tapeLines t =
   [ "tracks " <> Decimal.whole (tracks t),
-    "pitch " <> maybe "none" millimetres (pitch t),
-    "suffix " <> quoted (suffix t),
-    "leader " <> Decimal.whole (leader t),
-    "gap " <> Decimal.whole (gap t),
-    "even-shift " <> Decimal.whole (evenShift t),
-    "spare " <> case spare t of
-      Counted -> "counted"
-      Skipped -> "skipped",
-    "opening " <> quoted (opening t),
-    "closing " <> quoted (closing t)
+    "pitch " <> maybe "none" millimetres (pitch t)
   ]
+    <> ["width " <> millimetres w | Just w <- [width t]]
+    <> [ "suffix " <> quoted (suffix t),
+         "leader " <> Decimal.whole (leader t),
+         "gap " <> Decimal.whole (gap t),
+         "even-shift " <> Decimal.whole (evenShift t),
+         "spare " <> case spare t of
+           Counted -> "counted"
+           Skipped -> "skipped",
+         "opening " <> quoted (opening t),
+         "closing " <> quoted (closing t)
+       ]
 
 millimetres :: Mm -> Text
 millimetres (Mm x) = Decimal.exact x <> " mm"
