@@ -50,6 +50,7 @@ plot part path =
         <> [ Svg.layer "rests" (map (Svg.area LineStyle.restColour) (restMaterial scene))
              | not (null (restMaterial scene))
            ]
+        <> [Svg.layer "mirrored-half" (mirroredHalf y scene) | Just y <- [spindleAxis scene]]
         <> [ Svg.layer "contours" (map contourLine (shapes scene)),
              Svg.layer "linking-moves" (linkingMoves scene),
              Svg.layer "path" (concatMap cutLine (cuts scene)),
@@ -62,6 +63,25 @@ plot part path =
     )
   where
     scene = Scene.fromPart part path
+
+-- | Axis of the spindle at the height @y@, and the other half of a turned part. A line leads from each corner to its
+-- mirror image.
+mirroredHalf :: Double -> Scene -> [Svg]
+mirroredHalf y Scene {shapes} =
+  concatMap (half . outline) shapes
+    <> [ Svg.stroke
+           LineStyle.spindlePen
+           [Straight (Vec.point (leftmost Page.field) y) (Vec.point (rightmost Page.field) y)]
+       ]
+  where
+    half segments =
+      Svg.stroke LineStyle.mirrorPen (map (Page.mirroredAt y) segments) :
+        [ Svg.stroke LineStyle.mirrorPen [Straight p (Page.across y p)]
+          | (a, b) <- zip segments (drop 1 segments),
+            isCorner a b,
+            let p = Segment.end a
+        ]
+    isCorner a b = Vec.dot (Segment.endDirection a) (Segment.startDirection b) < 0.9999
 
 -- Part --------------------------------------------------------------------------------------------
 

@@ -77,9 +77,11 @@ data Scene = Scene
     rapids :: [Segment],
     -- | starting position of the cutter
     start :: Point,
-    -- | tools, each as its work (milling or turning) and a radius in mm of the part. The radius is
-    -- that of the cutter, or that of the turning tool's nose
-    tools :: [(Part.Work, Mm)]
+    -- | height of the axis of the spindle on the paper; Nothing for a milled part
+    spindleAxis :: Maybe Double,
+    -- | tools in the order of their use, each as its kind and a radius in mm of the part. The radius
+    -- is that of the cutter, or that of the turning tool's nose
+    tools :: [(Part.CutterKind, Mm)]
   }
 
 -- | Contour of the part, or circle of a drilled hole, in mm of paper.
@@ -132,7 +134,9 @@ fromPart part path =
       feeds = along (\pace -> pace /= Rapid),
       rapids = along (== Rapid),
       start = Page.place page begin,
-      tools = nubOrd [(Part.work m, radius m) | m <- millings]
+      spindleAxis =
+        if Toolpath.isTurned path then Just (Vec.y (Page.place page (Vec.point 0 0))) else Nothing,
+      tools = List.nub [(Part.kind c, Part.cutterRadius c) | c <- cuttersOf path]
     }
   where
     begin = Part.plane (value (Toolpath.start path))
@@ -145,7 +149,26 @@ fromPart part path =
         (Page.segment page)
         (nubOrd [Toolpath.segment m | m <- between, wanted (Toolpath.pace m)])
     page =
-      Page.choose (foldl BoundingBox.union (BoundingBox.ofPoints begin []) (boxesOf contours path))
+      Page.choose (foldl BoundingBox.union (BoundingBox.ofPoints begin []) (boxes <> mirrored))
+    boxes = boxesOf contours path
+    mirrored = if Toolpath.isTurned path then map mirrorImage (contourBoxes contours) else []
+    mirrorImage b =
+      b {BoundingBox.bottom = -(BoundingBox.top b), BoundingBox.top = -(BoundingBox.bottom b)}
+
+-- | Cutters with which a toolpath cuts, in the order of their use.
+cuttersOf :: Toolpath -> [Part.Cutter]
+cuttersOf path = go (Toolpath.firstCutter (Toolpath.setup path)) (Toolpath.blocks path)
+  where
+    go cutter blocks = case blocks of
+      [] -> []
+      Toolpath.Commanding (Located _ (Part.ChangeTool _ c)) : more -> go (Just c) more
+      block : more -> [c | isWork block, Just c <- [cutter]] <> go cutter more
+    isWork block = case block of
+      Toolpath.Cutting {} -> True
+      Toolpath.Clearing {} -> True
+      Toolpath.Holing {} -> True
+      Toolpath.Travelling {} -> False
+      Toolpath.Commanding _ -> False
 
 -- | Drops contours that are equal to earlier ones in the list.
 distinct :: [Part.Contour] -> [Part.Contour]
@@ -217,9 +240,14 @@ movesBetween block = case block of
 -- holes. Their coordinates are those of the part, not those of the paper.
 boxesOf :: [Part.Contour] -> Toolpath -> [BoundingBox]
 boxesOf contours path =
-  [Page.extent s | c <- contours, s <- NonEmpty.toList (Polyarc.segments (Part.polyarcOf c))]
+  contourBoxes contours
     <> [Page.extent (Toolpath.segment m) | b <- Toolpath.blocks path, m <- Toolpath.moves b]
     <> concatMap cutterBox (Toolpath.blocks path)
+
+-- | Bounding boxes of the segments of contours.
+contourBoxes :: [Part.Contour] -> [BoundingBox]
+contourBoxes contours =
+  [Page.extent s | c <- contours, s <- NonEmpty.toList (Polyarc.segments (Part.polyarcOf c))]
 
 -- | Bounding boxes, on the part, of the drawn cutters and of the drilled holes of a block.
 cutterBox :: Block -> [BoundingBox]

@@ -22,7 +22,7 @@ import Base.Quantity (Mm (..))
 import Data.Bits (testBit)
 import Data.List.NonEmpty (NonEmpty (..))
 import Data.List.NonEmpty qualified as NonEmpty
-import Data.Maybe (mapMaybe)
+import Data.Maybe (isJust, mapMaybe)
 import Data.Text (Text)
 import Draw.LineStyle qualified as LineStyle
 import Draw.Page (Area (..))
@@ -232,21 +232,22 @@ cutMarks g s =
 
 -- | Bracket beside the rows of each frame.
 frameMarks :: TapeGeometry -> Strip -> [Svg]
-frameMarks g s = concatMap bracket (NonEmpty.groupBy together (placed g s))
+frameMarks g s =
+  [ bracket y (fst (NonEmpty.last group))
+    | group@((y, (_, first)) :| _) <- NonEmpty.groupBy together (placed g s),
+      isJust (frame first)
+  ]
   where
     together (_, (_, a)) (_, (_, b)) = frame a == frame b
     x = left s + paperWidth g + 2
     half = step g / 2 - 0.3
-    bracket group@((y, (_, first)) :| _) =
-      [ Svg.stroke
-          (Pen LineStyle.blue 0.25 [])
-          [ Straight (Vec.point (x + 1) (y - half)) (Vec.point x (y - half)),
-            Straight (Vec.point x (y - half)) (Vec.point x (end + half)),
-            Straight (Vec.point x (end + half)) (Vec.point (x + 1) (end + half))
-          ]
-        | Just _ <- [frame first],
-          let (end, _) = NonEmpty.last group
-      ]
+    bracket from to =
+      Svg.stroke
+        (Pen LineStyle.blue 0.25 [])
+        [ Straight (Vec.point (x + 1) (from - half)) (Vec.point x (from - half)),
+          Straight (Vec.point x (from - half)) (Vec.point x (to + half)),
+          Straight (Vec.point x (to + half)) (Vec.point (x + 1) (to + half))
+        ]
 
 -- | Numbers of the rows, numbers of the frames, and the meanings of the rows. Blank rows with the
 -- same meaning have one text.

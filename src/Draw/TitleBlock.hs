@@ -9,6 +9,7 @@ where
 import Base.Decimal qualified as Decimal
 import Base.Name qualified as Name
 import Base.Quantity (LengthUnit, Mm (..), millimetresIn, times)
+import Data.List (nub)
 import Data.Maybe (catMaybes)
 import Data.Text (Text)
 import Data.Text qualified as Text
@@ -21,7 +22,7 @@ import Draw.Svg qualified as Svg
 import Geometry.Segment (Segment (Straight))
 import Geometry.Vec (Point)
 import Geometry.Vec qualified as Vec
-import Part.Part (Part, Work (..))
+import Part.Part (CutterKind, Part)
 import Part.Part qualified as Part
 
 -- | Name and title of the part on one line; empty if the part has neither.
@@ -125,8 +126,8 @@ scaleBar unit page =
         (Vec.point (left + width * fraction) (y + 5))
         (Decimal.short 4 (total * fraction) <> word)
 
--- | Title block: the part's name and title, the scale, the diameters of cutters, the nose radii of
--- turning tools.
+-- | Title block: the part's name and title, the scale, the diameters of cutters and drills, the
+-- nose radii of turning tools.
 title :: Part -> Scene -> [Svg]
 title part Scene {page, tools} =
   [ fitted
@@ -144,12 +145,24 @@ title part Scene {page, tools} =
     left = titleEdge + 3
     y = upper Page.strip
     plain = TextStyle {size = 3, ink = LineStyle.black, bold = False}
-    cutters =
-      Text.intercalate "; " (sized "cutter Ø " (times 2) Milled <> sized "nose R " id Turned)
-    sized word measure work =
-      case [Decimal.shortIn unit 4 (measure r) | (w, r) <- tools, w == work] of
-        [] -> []
-        sizes -> [word <> Text.intercalate ", " sizes <> " " <> Decimal.unitText unit]
+    cutters = Text.intercalate "; " (map sized (nub (map (wordOf . fst) tools)))
+    sized word =
+      word
+        <> Text.intercalate ", " [sizeOf k r | (k, r) <- tools, wordOf k == word]
+        <> " "
+        <> Decimal.unitText unit
+    sizeOf kind r =
+      Decimal.shortIn unit 4 (if kind == Part.TurningCutter then r else times 2 r)
+
+-- | Word for the size of a tool.
+wordOf :: CutterKind -> Text
+wordOf kind = case kind of
+  Part.MillingCutter -> "cutter Ø "
+  Part.DrillingCutter -> "drill Ø "
+  Part.ConeCutter -> "cone Ø "
+  Part.DovetailCutter -> "dovetail Ø "
+  Part.BladeCutter _ -> "blade Ø "
+  Part.TurningCutter -> "nose R "
 
 -- | Text that begins at point @p@ and ends before the right edge of the strip. A text that is too
 -- long gets smaller letters, down to 2 mm. If that is not enough, "…" replaces its end.
