@@ -48,7 +48,7 @@ red = "#a01818"
 -- | Pens of the drawing. If the cutter's centre moves on the contour itself, the contour is drawn
 -- as two thin lines: the white 'bedPen' is drawn over the wider black 'edgePen'. The 'pathPen' is
 -- drawn between the two lines.
-contourPen, edgePen, bedPen, pathPen, feedPen, rapidPen, cutterPen, framePen, axisPen, mirrorPen, spindlePen :: Pen
+contourPen, edgePen, bedPen, pathPen, feedPen, rapidPen, cutterPen, framePen :: Pen
 contourPen = Pen black 0.6 []
 edgePen = Pen black 1.3 []
 bedPen = Pen "white" 0.9 []
@@ -57,6 +57,9 @@ feedPen = Pen red 0.2 []
 rapidPen = Pen red 0.2 [2, 1.2]
 cutterPen = Pen black 0.2 []
 framePen = Pen black 0.35 []
+
+-- | Pens of the axes of the part, of the other half of a turned part, and of the spindle's axis.
+axisPen, mirrorPen, spindlePen :: Pen
 axisPen = Pen grey 0.13 []
 mirrorPen = Pen grey 0.35 []
 spindlePen = Pen black 0.2 [8, 1.2, 1.2, 1.2]

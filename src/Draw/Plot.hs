@@ -64,8 +64,8 @@ plot part path =
   where
     scene = Scene.fromPart part path
 
--- | Axis of the spindle at the height @y@, and the other half of a turned part. A line leads from each corner to its
--- mirror image.
+-- | Axis of the spindle at the height @y@, and the other half of a turned part. A line leads from
+-- each corner to its mirror image.
 mirroredHalf :: Double -> Scene -> [Svg]
 mirroredHalf y Scene {shapes} =
   concatMap (half . outline) shapes

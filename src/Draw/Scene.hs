@@ -79,8 +79,8 @@ data Scene = Scene
     start :: Point,
     -- | height of the axis of the spindle on the paper; Nothing for a milled part
     spindleAxis :: Maybe Double,
-    -- | tools in the order of their use, each as its kind and a radius in mm of the part. The radius
-    -- is that of the cutter, or that of the turning tool's nose
+    -- | tools in the order of their use, each as its kind and a radius in mm of the part: that of
+    -- the cutter, or that of the turning tool's nose
     tools :: [(Part.CutterKind, Mm)]
   }
 
