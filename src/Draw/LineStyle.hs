@@ -15,6 +15,7 @@ module Draw.LineStyle
     axisPen,
     mirrorPen,
     spindlePen,
+    sweptPen,
     small,
     arrowAt,
     arrowOn,
@@ -52,9 +53,9 @@ contourPen, edgePen, bedPen, pathPen, feedPen, rapidPen, cutterPen, framePen :: 
 contourPen = Pen black 0.6 []
 edgePen = Pen black 1.3 []
 bedPen = Pen "white" 0.9 []
-pathPen = Pen blue 0.35 [6, 1, 0.8, 1]
-feedPen = Pen red 0.2 []
-rapidPen = Pen red 0.2 [2, 1.2]
+pathPen = Pen blue 0.25 []
+feedPen = Pen red 0.2 [4, 0.8]
+rapidPen = Pen red 0.2 [1.4, 1.2]
 cutterPen = Pen black 0.2 []
 framePen = Pen black 0.35 []
 
@@ -63,6 +64,10 @@ axisPen, mirrorPen, spindlePen :: Pen
 axisPen = Pen grey 0.13 []
 mirrorPen = Pen grey 0.35 []
 spindlePen = Pen black 0.2 [8, 1.2, 1.2, 1.2]
+
+-- | Pen of the area over which a cutter with a radius in mm of paper sweeps.
+sweptPen :: Double -> Pen
+sweptPen radius = Pen "#dfe8f7" (2 * radius) []
 
 -- | Grey of the material.
 materialColour :: Text

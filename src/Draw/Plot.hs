@@ -45,6 +45,7 @@ plot part path =
     (TitleBlock.name part)
     ( [ Svg.layer "page" [Svg.rectangle (Pen "none" 0 []) "white" Page.wholePage],
         Svg.layer "material" (material (shapes scene)),
+        Svg.layer "swept" (map sweptArea (cuts scene)),
         Svg.layer "axes" (axes (Part.unit part) (page scene))
       ]
         <> [ Svg.layer "rests" (map (Svg.area LineStyle.restColour) (restMaterial scene))
@@ -84,6 +85,11 @@ mirroredHalf y Scene {shapes} =
     isCorner a b = Vec.dot (Segment.endDirection a) (Segment.startDirection b) < 0.9999
 
 -- Part --------------------------------------------------------------------------------------------
+
+-- | Area over which the cutter sweeps along a cut.
+sweptArea :: Cut -> Svg
+sweptArea cut =
+  Svg.swept (LineStyle.sweptPen (cutterRadius cut)) (NonEmpty.toList (Scene.lines cut))
 
 -- | Areas of material in grey, with windows in white. A body is a contour with material inside, and
 -- a window is a contour with material outside. A shape is drawn after the shape in which it lies.

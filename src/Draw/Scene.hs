@@ -110,7 +110,8 @@ data Cut = Cut
     away :: Double,
     -- | True if the cutter's centre is on the contour
     isOnContour :: Bool,
-    -- | True if the nodes have numbers; False in a pocket
+    -- | True if the nodes have numbers: in the last pass of a milling statement, but not in a
+    -- pocket
     numbered :: Bool,
     -- | True if the cutter is drawn where the cut begins; in a pocket only for the first cut of a
     -- pass
@@ -129,7 +130,7 @@ fromPart part path =
       shapes =
         map (shapeOf page millingsAt) contours
           <> map (holeOf page) (nubOrd (concatMap holesOf (Part.operations part))),
-      cuts = concatMap (cutsOf page) (drawnOnce (Toolpath.blocks path)),
+      cuts = concatMap (cutsOf page (isLastPass path)) (drawnOnce (Toolpath.blocks path)),
       restMaterial = map (map (Page.segment page)) (restMaterialOf path),
       feeds = along (\pace -> pace /= Rapid),
       rapids = along (== Rapid),
@@ -305,16 +306,16 @@ sideOf milling = case Toolpath.leadingSide milling of
   Right side -> side
 
 -- | Cuts of a block of the toolpath, converted to paper.
-cutsOf :: Page -> Block -> [Cut]
-cutsOf page block = case block of
+cutsOf :: Page -> (Toolpath.Pass -> Bool) -> Block -> [Cut]
+cutsOf page isLast block = case block of
   Travelling {} -> []
   Holing _ _ -> []
   Commanding _ -> []
-  Cutting {job = Located _ milling, cut} ->
+  Cutting {job = Located _ milling, pass, cut} ->
     [ (along milling cut)
         { away = awayFrom milling,
           isOnContour = isNothing (sideOf milling),
-          numbered = True
+          numbered = isLast pass
         }
     ]
   -- The moves from one plunge to the next lift in a pocket are one cut.
@@ -336,6 +337,14 @@ cutsOf page block = case block of
           numbered = False,
           showsCutter = True
         }
+
+-- | Test that a pass is the last one of its milling statement.
+isLastPass :: Toolpath -> Toolpath.Pass -> Bool
+isLastPass path = isFinal
+  where
+    isFinal pass = Map.lookup (Toolpath.number pass) final == Just pass
+    -- It is computed once for all passes.
+    final = Map.fromList [(Toolpath.number p, p) | Cutting {pass = p} <- Toolpath.blocks path]
 
 -- | True if a move in a pocket cuts: it is at feed and does not change the height.
 isCut :: Move -> Bool

@@ -8,6 +8,7 @@ module Draw.Svg
     layer,
     Pen (..),
     stroke,
+    swept,
     loop,
     area,
     rectangle,
@@ -74,6 +75,15 @@ data Pen = Pen {colour :: Text, width :: Double, dashes :: [Double]}
 stroke :: Pen -> [Segment] -> Svg
 stroke pen segments =
   Svg.path ! Attribute.d (toValue (pathData segments)) ! Attribute.fill "none" ! drawnWith pen
+
+-- | Open polyarc, drawn with a pen whose ends are round: the area over which a circle sweeps.
+swept :: Pen -> [Segment] -> Svg
+swept pen segments =
+  Svg.path
+    ! Attribute.d (toValue (pathData segments))
+    ! Attribute.fill "none"
+    ! Attribute.strokeLinecap "round"
+    ! drawnWith pen
 
 -- | Closed polyarc, drawn with a pen.
 loop :: Pen -> [Segment] -> Svg

@@ -77,7 +77,10 @@ legendEntries Scene {page, shapes, cuts, restMaterial, feeds, rapids} =
       "part"
     ),
     (not (null restMaterial), surface LineStyle.restColour, "material left"),
-    (not (null cuts), line LineStyle.pathPen, "cutter path"),
+    ( not (null cuts),
+      \p -> surface (colour (LineStyle.sweptPen 1)) p <> line LineStyle.pathPen p,
+      "cutter path"
+    ),
     ( any isOnContour cuts,
       \p -> concatMap (`line` p) [LineStyle.edgePen, LineStyle.bedPen, LineStyle.pathPen],
       "on a contour"
@@ -145,12 +148,10 @@ title part Scene {page, tools} =
     left = titleEdge + 3
     y = upper Page.strip
     plain = TextStyle {size = 3, ink = LineStyle.black, bold = False}
-    cutters = Text.intercalate "; " (map sized (nub (map (wordOf . fst) tools)))
-    sized word =
-      word
-        <> Text.intercalate ", " [sizeOf k r | (k, r) <- tools, wordOf k == word]
-        <> " "
-        <> Decimal.unitText unit
+    cutters =
+      Text.intercalate "; " (map sized (nub (map (wordOf . fst) tools)))
+        <> (if null tools then "" else " " <> Decimal.unitText unit)
+    sized word = word <> Text.intercalate ", " [sizeOf k r | (k, r) <- tools, wordOf k == word]
     sizeOf kind r =
       Decimal.shortIn unit 4 (if kind == Part.TurningCutter then r else times 2 r)
 
