@@ -74,24 +74,27 @@ data Writing = Writing
 -- make at corners; Nothing for an exact path.
 write :: Machine -> ProgramForm -> FileHeading -> Maybe Mm -> FrameProgram -> [ToolFile]
 write machine form given bound program =
-  [ ToolFile (if isOneFile then Nothing else toolOf part) (Text.unlines (fileLines context part))
-    | (k, made) <- zip [1 ..] parts,
-      let part = made {fileNumber = (k, length parts)}
+  [ ToolFile
+      (if isOneFile then Nothing else toolOf part)
+      (Text.unlines (fileLines context (FileNumber k (length parts)) part))
+    | (k, part) <- zip [1 ..] parts
   ]
   where
     context = Context {machine, form, heading, bound}
     heading = Heading.raised machine form program given
     isOneFile = ProgramForm.changesTools (dialect form)
     frames = dropEnd (length (Command.finalFrames machine)) (plannedFrames program)
-    whole = FilePart (1, 1) (firstTool heading) (start program) False frames
+    whole = FilePart (firstTool heading) (start program) False frames
     parts = if isOneFile then [whole] else byTool machine whole
     dropEnd n xs = take (length xs - n) xs
 
--- | Frames of one file: which file of how many it is, the tool that is in the spindle first, the
--- position before the first frame, and true if the coolant was on before it.
+-- | Number of a file, from 1, and the count of files.
+data FileNumber = FileNumber Int Int
+
+-- | Frames of one file: the tool that is in the spindle first, the position before the first frame,
+-- and true if the coolant was on before it.
 data FilePart = FilePart
-  { fileNumber :: (Int, Int),
-    toolOf :: Maybe Int,
+  { toolOf :: Maybe Int,
     begins :: Pulses3,
     isCooled :: Bool,
     framesOf :: [PlannedFrame]
@@ -106,8 +109,7 @@ byTool machine part = case span (null . changesIn . frame) (framesOf part) of
     byTool
       machine
       FilePart
-        { fileNumber = (1, 1),
-          toolOf = listToMaybe (changesIn (frame change)),
+        { toolOf = listToMaybe (changesIn (frame change)),
           begins = begins part + sum (map (increment . frame) own),
           isCooled = last (isCooled part : coolantIn (map frame own)),
           framesOf = change {frame = withoutChange (frame change)} : more
@@ -131,11 +133,11 @@ data Context = Context
   }
 
 -- | Lines of one file.
-fileLines :: Context -> FilePart -> [Text]
-fileLines context part =
+fileLines :: Context -> FileNumber -> FilePart -> [Text]
+fileLines context number part =
   [percent | hasPercent]
     <> programLine
-    <> map (commentLine context) (headTexts context part)
+    <> map (commentLine context) (headTexts context number part)
     <> numbered (form context) body
     <> [percent | hasPercent]
   where
@@ -185,13 +187,12 @@ isRise f = case increment f of
   _ -> False
 
 -- | Texts of the comments at the head of a file.
-headTexts :: Context -> FilePart -> [(Text, Text)]
-headTexts context@Context {machine, form, heading} part =
+headTexts :: Context -> FileNumber -> FilePart -> [(Text, Text)]
+headTexts context@Context {machine, form, heading} (FileNumber k count) part =
   [("part", partName heading <> (if title == "" then "" else ", " <> title))]
     <> [("machine", name)]
     <> [ ("file", Decimal.whole k <> " of " <> Decimal.whole count)
-         | let (k, count) = fileNumber part,
-           count > 1
+         | count > 1
        ]
     <> [("remark", remark form) | remark form /= ""]
     <> [("time", FileTime.timeText duration)]
@@ -199,10 +200,9 @@ headTexts context@Context {machine, form, heading} part =
          | (n, text) <- toolList heading,
            ProgramForm.changesTools (dialect form) || Just n == toolOf part
        ]
-    <> [("before the start", text) | text <- operatorTexts form heading isFirst]
+    <> [("before the start", text) | text <- operatorTexts form heading (k == 1)]
     <> [("the build needs", text) | dialect form == Marlin, text <- marlinTexts context part]
   where
-    isFirst = fst (fileNumber part) == 1
     duration = FileTime.timeOf machine (begins part) (map frame (framesOf part))
     title = partTitle heading
     MachineName name = Machine.name machine
