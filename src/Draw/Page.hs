@@ -13,8 +13,6 @@ module Draw.Page
     place,
     unplace,
     segment,
-    mirroredAt,
-    across,
     onPaper,
     extent,
     Area (..),
@@ -144,22 +142,6 @@ segment page s = case s of
         centre = place page centre,
         sweep = Rad (-a)
       }
-
--- | Mirror image of a segment on paper in the horizontal line at the height @y@.
-mirroredAt :: Double -> Segment -> Segment
-mirroredAt y s = case s of
-  Straight a b -> Straight (across y a) (across y b)
-  Arc {start, end, centre, sweep = Rad a} ->
-    Arc
-      { start = across y start,
-        end = across y end,
-        centre = across y centre,
-        sweep = Rad (-a)
-      }
-
--- | Mirror image of a point on paper in the horizontal line at the height @y@.
-across :: Double -> Point -> Point
-across y p = Vec.point (Vec.x p) (2 * y - Vec.y p)
 
 -- | Converts a length of the part to mm on paper.
 onPaper :: Page -> Mm -> Double

@@ -24,13 +24,14 @@ import Draw.Scene qualified as Scene
 import Draw.Svg (Anchor (..), Pen (..), Svg, TextStyle (..))
 import Draw.Svg qualified as Svg
 import Draw.TitleBlock qualified as TitleBlock
-import Geometry.Carrier (Circle (..), Sense (..))
+import Geometry.Carrier (Circle (..), Line (..), Sense (..))
 import Geometry.Index.BoundingBox (BoundingBox (..))
 import Geometry.Index.BoundingBox qualified as BoundingBox
 import Geometry.Index.BoxTree qualified as BoxTree
 import Geometry.Polyarc (Ends (..))
 import Geometry.Segment (Segment (Straight))
 import Geometry.Segment qualified as Segment
+import Geometry.Transformation qualified as Transformation
 import Geometry.Vec qualified as Vec
 import Geometry.WindingNumber qualified as WindingNumber
 import Part.Part (Part)
@@ -76,12 +77,13 @@ mirroredHalf y Scene {shapes} =
        ]
   where
     half segments =
-      Svg.stroke LineStyle.mirrorPen (map (Page.mirroredAt y) segments) :
-        [ Svg.stroke LineStyle.mirrorPen [Straight p (Page.across y p)]
+      Svg.stroke LineStyle.mirrorPen (map (Transformation.segment mirror) segments) :
+        [ Svg.stroke LineStyle.mirrorPen [Straight p (Transformation.point mirror p)]
           | (a, b) <- zip segments (drop 1 segments),
             isCorner a b,
             let p = Segment.end a
         ]
+    mirror = Transformation.reflection (Line (Vec.point 0 y) (Vec.point 1 y))
     isCorner a b = Vec.dot (Segment.endDirection a) (Segment.startDirection b) < 0.9999
 
 -- Part --------------------------------------------------------------------------------------------

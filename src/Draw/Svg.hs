@@ -78,12 +78,7 @@ stroke pen segments =
 
 -- | Open polyarc, drawn with a pen whose ends are round: the area over which a circle sweeps.
 swept :: Pen -> [Segment] -> Svg
-swept pen segments =
-  Svg.path
-    ! Attribute.d (toValue (pathData segments))
-    ! Attribute.fill "none"
-    ! Attribute.strokeLinecap "round"
-    ! drawnWith pen
+swept pen segments = stroke pen segments ! Attribute.strokeLinecap "round"
 
 -- | Closed polyarc, drawn with a pen.
 loop :: Pen -> [Segment] -> Svg

@@ -22,7 +22,7 @@ import Base.Quantity (Mm (..))
 import Data.Bits (testBit)
 import Data.List.NonEmpty (NonEmpty (..))
 import Data.List.NonEmpty qualified as NonEmpty
-import Data.Maybe (isJust, mapMaybe)
+import Data.Maybe (isJust, listToMaybe, mapMaybe)
 import Data.Text (Text)
 import Draw.LineStyle qualified as LineStyle
 import Draw.Page (Area (..))
@@ -255,7 +255,7 @@ rowTexts :: TapeGeometry -> Double -> Strip -> [Svg]
 rowTexts g frameColumn s =
   [ Svg.text letters {ink = "#606060"} End (Vec.point (left s - 2) (y + lowered)) (Decimal.whole n)
     | (y, (n, _)) <- rows,
-      n `mod` 5 == 0 || Just n == (fst . snd <$> firstOf rows)
+      n `mod` 5 == 0 || Just n == (fst . snd <$> listToMaybe rows)
   ]
     <> [ Svg.text letters {bold = True} Start (Vec.point x (y + lowered)) (Decimal.whole k)
          | (before, (y, (_, row))) <- pairs,
@@ -268,9 +268,6 @@ rowTexts g frameColumn s =
        ]
   where
     rows = placed g s
-    firstOf list = case list of
-      r : _ -> Just r
-      [] -> Nothing
     pairs = zip (Nothing : map (Just . snd . snd) rows) rows
     x = left s + paperWidth g + bracketSpace
     lowered = 0.36 * size letters

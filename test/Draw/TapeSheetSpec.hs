@@ -3,7 +3,7 @@ module Draw.TapeSheetSpec (spec) where
 
 import Control.Monad (forM_)
 import Data.Bits (setBit)
-import Data.List (sortOn)
+import Data.Containers.ListUtils (nubOrd)
 import Data.Maybe (fromMaybe)
 import Data.Text (Text)
 import Data.Text qualified as Text
@@ -28,7 +28,7 @@ spec = describe "the drawing of a tape" $ do
     it ("has a sprocket hole in each row, on one line of each strip, for " <> name) $ do
       let sprockets = pointsOf "sprocket-holes" (drawing machine)
       length sprockets `shouldBe` length (rowsOf machine)
-      length (distinct (map fst sprockets)) `shouldSatisfy` (<= length (strips (drawing machine)))
+      length (nubOrd (map fst sprockets)) `shouldSatisfy` (<= length (strips (drawing machine)))
     it ("keeps all of it on its pages, for " <> name) $ do
       let texts = "viewBox=\"0 0 210 " `Text.breakOn` drawing machine
       snd texts `shouldNotBe` ""
@@ -52,11 +52,6 @@ drawing machine =
 
 hundredths :: Double -> Int
 hundredths x = round (100 * x)
-
-distinct :: Ord a => [a] -> [a]
-distinct list = case sortOn id list of
-  [] -> []
-  x : more -> x : map snd (filter (uncurry (/=)) (zip (x : more) more))
 
 -- | Holes of all rows, from the places of the points on the strips.
 holesIn :: Machine -> Text -> [Word8]
