@@ -1,8 +1,8 @@
 /* Starts partc with options of the garbage collector that suit the command.
 
    A compile is short: old data is not collected before there is much of it, nor again before it is
-   four times as much. The language server lives long: it keeps little memory, and has two cores, so that
-   its messages do not wait for an analysis. In both, one thread collects garbage, and statistics are
+   four times as much. The language server and the preview live long: they keep little memory, and have two cores, so
+   that their answers do not wait for an analysis. In both, one thread collects garbage, and statistics are
    kept. The user's guide of GHC describes hs_main and RtsConfig ("Using your own main()"). */
 #include <fcntl.h>
 #include <string.h>
@@ -25,7 +25,7 @@ int main(int argc, char *argv[])
     RtsConfig config = defaultRtsConfig;
     int isServer = 0;
     for (int i = 1; i < argc; i++)
-        isServer |= strcmp(argv[i], "lsp") == 0;
+        isServer |= strcmp(argv[i], "lsp") == 0 || strcmp(argv[i], "preview") == 0;
     config.rts_opts = isServer ? "-O8m -F2 -N2 -qg -T" : "-O256m -F4 -qg -T";
     config.rts_opts_enabled = RtsOptsIgnoreAll;
     return hs_main(argc, argv, &ZCMain_main_closure, config);

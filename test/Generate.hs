@@ -264,7 +264,8 @@ partOf at operation =
       Part.contours = [],
       Part.operations = [operation],
       Part.fittings = [],
-      Part.readings = []
+      Part.readings = [],
+      Part.namedPoints = []
     }
   where
     cutter = case operation of

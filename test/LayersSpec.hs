@@ -71,7 +71,8 @@ table =
       Folder
       "Query"
       (Only ["Report", "Surface", "Checked", "Geometry", "Part", "Toolpath", "Compile", "Draw"]),
-    Layer Folder "Lsp" (Only ["Query"]),
+    Layer Folder "Preview" (Only ["Query", "Pulse"]),
+    Layer Folder "Lsp" (Only ["Preview"]),
     Layer Folder "Cli" Above,
     Layer Program "app" Above
   ]
@@ -86,6 +87,15 @@ sanctioned :: Map Text [Text]
 sanctioned =
   Map.fromList
     [ ("Base.Crash", ["Control.Exception"]),
+      ( "Preview.Server",
+        [ "Control.Concurrent",
+          "Control.Concurrent.MVar",
+          "Control.Concurrent.STM",
+          "Control.Exception",
+          "System.IO"
+        ]
+      ),
+      ("Lsp.PreviewPages", ["Control.Concurrent"]),
       ( "Lsp.Server",
         [ "Control.Concurrent",
           "Control.Exception",

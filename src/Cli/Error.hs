@@ -72,6 +72,10 @@ data Error
   | -- | Another number of files than the program has: the count of files on the command line, and
     -- the names of the files that belong to the program.
     WrongFileCount Int [Text]
+  | -- | The page of the preview cannot be served, for the given reason.
+    CannotListen Text
+  | -- | The preview should follow standard input.
+    NothingToFollow
   | -- | No report has the code that the user asks about. The arguments: this code as the user wrote
     -- it, and similar codes that exist, for the hint.
     UnknownCode Text [Text]
@@ -134,6 +138,14 @@ toReport err = case err of
   NotPunched machine ->
     (wrong "E0819" InFile ("the tape of " <> machine <> " is a text, without holes"))
       { hints = ["Leave -o out: then its lines are printed with their meaning."]
+      }
+  CannotListen why ->
+    (wrong "E0821" InCommandLine ("the page cannot be served: " <> why))
+      { hints = ["Leave --port out: then any free port is taken."]
+      }
+  NothingToFollow ->
+    (wrong "E0822" InFile "standard input cannot be followed")
+      { hints = ["Name the file of the program or of the tape."]
       }
   SheetAssigned name ->
     (wrong "E0913" InFile ("an input sheet has no parameters, so ‘" <> name <> "’ cannot be set"))

@@ -17,7 +17,6 @@ import Base.Quantity (LengthUnit (..), Mm (..), Rad (..), Seconds (..), minus, t
 import Base.Region (Located (..))
 import Cli.CurveTable qualified as CurveTable
 import Cli.RestMaterialTable qualified as RestMaterialTable
-import Cli.RunTable qualified as RunTable
 import Cli.Table (Align (..))
 import Cli.Table qualified as Table
 import Compile (Analysis (..), Punched (..))
@@ -38,6 +37,7 @@ import Part.Part qualified as Part
 import Pulse.Controller qualified as Controller
 import Pulse.ControllerRun (StopReason (..))
 import Pulse.RunMeasure (RunTotal (..))
+import Pulse.StopText qualified as StopText
 import Tape.Tape qualified as Tape
 import Toolpath.Toolpath (Block (..), Move (..), Pass (..), Toolpath)
 import Toolpath.Toolpath qualified as Toolpath
@@ -247,7 +247,7 @@ controllerRow machine Punched {program, tape} =
   ]
   where
     console = Controller.consoleFor machine (Frame.plannedFrames program)
-    stopped whole = ["", "stops " <> RunTable.stopText machine (stopReason whole)]
+    stopped whole = ["", "stops " <> StopText.stopText machine (stopReason whole)]
     timeOrStop whole clock = case stopReason whole of
       TooFast {} -> stopped whole
       FeedHeld _ -> stopped whole

@@ -4,6 +4,7 @@ module Cli.Options
     CompileOptions (..),
     RunOptions (..),
     RunForm (..),
+    PreviewOptions (..),
     Invocation (..),
     parser,
   )
@@ -62,6 +63,7 @@ data Subcommand
     Machines (Maybe Text) Bool
   | -- | the report code, or nothing for the list of all codes
     Explain (Maybe Text)
+  | Preview PreviewOptions
   | LanguageServer
   | -- | true to check the layout and write nothing; the programs
     Fmt Bool (NonEmpty FilePath)
@@ -96,6 +98,20 @@ data RunOptions = RunOptions
     overrideAt :: Maybe Int,
     -- | radius of the cutter for each switch that is set
     switchesAt :: [(Int, Mm)]
+  }
+  deriving stock (Eq, Show)
+
+-- | The arguments of @preview@.
+data PreviewOptions = PreviewOptions
+  { -- | a program or a tape
+    previewFile :: FilePath,
+    -- | name or file of the machine with which the page begins; nothing for the machine that the
+    -- program names
+    previewTarget :: Maybe Text,
+    -- | port of the page; nothing for any free one
+    previewPort :: Maybe Int,
+    -- | true to open the page in a browser
+    previewOpens :: Bool
   }
   deriving stock (Eq, Show)
 
@@ -182,6 +198,11 @@ commands =
         "partc plot flange.part -o flange.svg"
         (Plot <$> program <*> optional outputFile),
       entry
+        "preview"
+        "Serve a page that follows a program and plays its tape"
+        "partc preview flange.part"
+        (Preview <$> previewOptions),
+      entry
         "import"
         "Make a part program of an input sheet"
         "partc import rib.sheet -o rib.part"
@@ -240,6 +261,29 @@ compileOptions =
     <*> many target
     <*> optional (outputOption "The file to write, or a folder; - for standard output")
     <*> Opt.switch (Opt.long "no-verify" <> Opt.help "Write the tape without proving it")
+
+previewOptions :: Parser PreviewOptions
+previewOptions =
+  PreviewOptions
+    <$> Opt.strArgument
+      ( Opt.metavar "FILE"
+          <> Opt.help "A part program, an input sheet, a tape, or a file of G-code"
+          <> Opt.action "file"
+      )
+    <*> optional target
+    <*> optional
+      ( Opt.option
+          portNumber
+          ( Opt.long "port"
+              <> Opt.metavar "N"
+              <> Opt.help "The port of the page; any free one if left out"
+          )
+      )
+    <*> (not <$> Opt.switch (Opt.long "no-open" <> Opt.help "Do not open a browser"))
+  where
+    portNumber = Opt.eitherReader $ \word -> case readMaybe word of
+      Just n | n >= 1 && n <= (65535 :: Int) -> Right n
+      _ -> Left ("‘" <> word <> "’ is not a port from 1 to 65535")
 
 runOptions :: Parser RunOptions
 runOptions =

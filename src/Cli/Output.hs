@@ -15,6 +15,7 @@ module Cli.Output
     collectingOften,
     readBytes,
     writeFileWhole,
+    ioProblem,
   )
 where
 

@@ -9,7 +9,6 @@ module Cli.RunTable
     totalJson,
     pulseLines,
     axisNames,
-    stopText,
   )
 where
 
@@ -30,12 +29,6 @@ import Data.Text (Text)
 import Data.Text qualified as Text
 import Data.Text.Encoding qualified as Encoding
 import Machine.Axis (axisName, rotaryName)
-import Machine.Controller
-  ( Controller (..),
-    IntegratorControl (reader),
-    StepControl (stepReader),
-    TapeReader (faultSignal),
-  )
 import Machine.Machine
   ( AxisForm (axis, reversed),
     CommandName (..),
@@ -49,6 +42,7 @@ import Pulse.RunMeasure (FrameMeasure, FrequencyPeak (..), JobLoad (..), RunTota
 import Pulse.RunMeasure qualified as Measure
 import Pulse.Steps (Pulses5)
 import Pulse.Steps qualified as Steps
+import Pulse.StopText qualified as StopText
 
 -- | Axes of a machine: the index of each in a vector of five pulses, and its name.
 axisNames :: Machine -> [(Int, Text)]
@@ -186,7 +180,7 @@ timeTable machine clock total =
         Decimal.whole (starved total)
           <> maybe "" ((", the first is frame " <>) . Decimal.whole) (firstStarved total)
       ],
-      ["stops", stopText machine (stopReason total)]
+      ["stops", StopText.stopText machine (stopReason total)]
     ]
 
 axisTable :: Machine -> RunTotal -> Text
@@ -238,7 +232,7 @@ totalJson machine clock total =
                 "pulses" .= perAxis machine (totalPulses total),
                 "highestFrequency" .= perAxisPeaks (peaks total),
                 "largestJump" .= perAxisPeaks (largestJumps total),
-                "stop" .= stopText machine (stopReason total),
+                "stop" .= StopText.stopText machine (stopReason total),
                 "jobs"
                   .= object
                     [ Key.fromText name
@@ -259,30 +253,6 @@ totalJson machine clock total =
           | (k, name) <- axisNames machine,
             peak <- take 1 (drop k found)
         ]
-
--- | Place and reason of a stop, after the word *stops*.
-stopText :: Machine -> StopReason -> Text
-stopText machine why = case why of
-  TapeEnds
-    | null (Machine.finish (Machine.commandWords machine)) -> "at the end of the tape"
-    | otherwise -> "at the end of the tape, without the end of the program"
-  ProgramEnds -> "at the end of the program"
-  Unreadable _ ->
-    "before a frame that cannot be read"
-      <> maybe
-        ""
-        (\t -> "; the control lights ‘" <> t <> "’")
-        (signal (Machine.controller machine))
-  TooFast n _ _ -> "before frame " <> Decimal.whole n <> ", whose feed is too high"
-  FeedHeld n -> "before frame " <> Decimal.whole n <> ", because the feed is held"
-  SwitchNotSet n k ->
-    "before frame " <> Decimal.whole n <> ", because switch " <> Decimal.whole k <> " is not set"
-  NotCompensated n fault -> "before frame " <> Decimal.whole n <> ", which " <> fault
-  where
-    signal control = case control of
-      Just (Stepping c) -> stepReader c >>= faultSignal
-      Just (Integrating c) -> faultSignal (reader c)
-      _ -> Nothing
 
 -- Pulses ------------------------------------------------------------------------------------------
 

@@ -39,6 +39,7 @@ import Cli.Output (Exit (..), Reporter)
 import Cli.Output qualified as Output
 import Cli.OutputFile (writeTapes, writeText)
 import Cli.OutputFile qualified as OutputFile
+import Cli.PreviewCommand qualified as PreviewCommand
 import Cli.Progress qualified as Progress
 import Cli.ProofTable qualified as ProofTable
 import Cli.PulseProofTable qualified as PulseProofTable
@@ -108,6 +109,7 @@ perform reporter command = case command of
   Decode target tape -> decode reporter target tape
   Run options -> RunCommand.run reporter options
   Plot file output -> plot reporter file output
+  Preview options -> PreviewCommand.preview reporter options
   Machines name asText -> machines reporter name asText
   DrawTape target range Nothing tape -> drawTape reporter target range tape
   DrawTape target range (Just path) tape -> drawSheet reporter target range path tape

@@ -9,6 +9,10 @@ module Draw.Scene
     Cut (..),
     lines,
     fromPart,
+    sidedContours,
+    restMaterialOf,
+    isLastPass,
+    isCut,
   )
 where
 
@@ -141,9 +145,8 @@ fromPart part path =
     }
   where
     begin = Part.plane (value (Toolpath.start path))
-    millings = concatMap millingOf (Part.operations part)
-    contours = distinct (Part.contours part <> map contour millings)
-    millingsAt = Map.fromListWith (flip (<>)) [(beginning (contour m), [m]) | m <- millings]
+    contours = drawnContours part
+    millingsAt = millingsByStart part
     between = concatMap movesBetween (Toolpath.blocks path)
     along wanted =
       map
@@ -155,6 +158,24 @@ fromPart part path =
     mirrored = if Toolpath.isTurned path then map mirrorImage (contourBoxes contours) else []
     mirrorImage b =
       b {BoundingBox.bottom = -(BoundingBox.top b), BoundingBox.top = -(BoundingBox.bottom b)}
+
+-- | Contours of a drawing in mm of the part, each with the side on which its material lies.
+sidedContours :: Part -> [(Part.Contour, MaterialSide)]
+sidedContours part = [(c, materialSideOf millings c) | c <- drawnContours part]
+  where
+    millings = millingsByStart part
+
+-- | Contours of a drawing: those of the part, and those that are milled.
+drawnContours :: Part -> [Part.Contour]
+drawnContours part =
+  distinct (Part.contours part <> map contour (concatMap millingOf (Part.operations part)))
+
+-- | Millings of a part by the first point of their contours.
+millingsByStart :: Part -> Map Point [Milling]
+millingsByStart part =
+  Map.fromListWith
+    (flip (<>))
+    [(beginning (contour m), [m]) | m <- concatMap millingOf (Part.operations part)]
 
 -- | Cutters with which a toolpath cuts, in the order of their use.
 cuttersOf :: Toolpath -> [Part.Cutter]
@@ -274,22 +295,25 @@ shapeOf :: Page -> Map Point [Milling] -> Part.Contour -> Shape
 shapeOf page millings c =
   Shape
     { ends = Part.ends c,
-      materialSide,
-      outline = map (Page.segment page) (NonEmpty.toList (Polyarc.segments bare))
+      materialSide = materialSideOf millings c,
+      outline = map (Page.segment page) (NonEmpty.toList (Polyarc.segments (Part.polyarcOf c)))
     }
+
+-- | Side of a contour on which its material lies. The first argument is that of 'shapeOf'.
+materialSideOf :: Map Point [Milling] -> Part.Contour -> MaterialSide
+materialSideOf millings c =
+  case mapMaybe
+    sideOf
+    ( filter
+        (\m -> Part.polyarcOf (contour m) == bare)
+        (Map.findWithDefault [] (beginning c) millings)
+    ) of
+    side : _
+      | Part.ends c == Closed ->
+        if (side == Carrier.LeftOf) == (Polyarc.signedArea bare > 0) then Outside else Inside
+    _ -> Unknown
   where
     bare = Part.polyarcOf c
-    materialSide =
-      case mapMaybe
-        sideOf
-        ( filter
-            (\m -> Part.polyarcOf (contour m) == bare)
-            (Map.findWithDefault [] (beginning c) millings)
-        ) of
-        side : _
-          | Part.ends c == Closed ->
-            if (side == Carrier.LeftOf) == (Polyarc.signedArea bare > 0) then Outside else Inside
-        _ -> Unknown
 
 -- | Converts a drilled hole, given as a circle on the part, to paper.
 holeOf :: Page -> Circle -> Shape

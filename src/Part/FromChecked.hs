@@ -22,7 +22,10 @@ import Data.List.NonEmpty qualified as NonEmpty
 import Data.Map.Strict qualified as Map
 import Data.Maybe (fromMaybe)
 import Data.Text (Text)
+import Geometry.Carrier (Circle (Circle))
 import Geometry.Transformation (Transformation)
+import Geometry.Vec (Point)
+import Geometry.Vec qualified as Vec
 import Part.Assertion qualified as Assertion
 import Part.ContourElement qualified as ContourElement
 import Part.Curve (Fitting, PartCurve (..))
@@ -57,6 +60,7 @@ data State = State
     contours' :: [Contour],
     operations' :: [Operation],
     readings' :: [(Region, Text)],
+    namedPoints' :: [(Located Name, Point)],
     fittings' :: [(Located Name, Fitting)],
     errors' :: [Error],
     -- | the number of evaluation steps that are left; a step is the unit of work in
@@ -86,7 +90,8 @@ evaluate program =
           contours = reverse (contours' final),
           operations = reverse (operations' final),
           fittings = reverse (fittings' final),
-          readings = readings' final
+          readings = readings' final,
+          namedPoints = reverse (namedPoints' final)
         }
 
 -- | The error of a safe height that is lower than a clearance height of the program.
@@ -121,6 +126,7 @@ initial inUnit =
       contours' = [],
       operations' = [],
       readings' = [],
+      namedPoints' = [],
       fittings' = [],
       errors' = [],
       fuel = Evaluation.mostSteps
@@ -277,7 +283,8 @@ define state name d v =
   (withEnvironment state env')
     { readings' = (region name, Expression.written (Expression.textUnit env) d v) : readings' state,
       fittings' =
-        [(name, f) | CurveValue PartCurve {fitting = Just f} <- [v]] <> fittings' state
+        [(name, f) | CurveValue PartCurve {fitting = Just f} <- [v]] <> fittings' state,
+      namedPoints' = [(name, p) | Just p <- [pointOf v]] <> namedPoints' state
     }
   where
     env = environment (context state)
@@ -286,6 +293,14 @@ define state name d v =
         { values = Map.insert (value name) v (values env),
           locals = Map.delete (value name) (locals env)
         }
+
+-- | The point that a value is, or the centre of the circle that it is.
+pointOf :: Value -> Maybe Point
+pointOf v = case v of
+  Spatial offset -> Just (Vec.shift offset (Vec.point 0 0))
+  SpaceValue p _ -> Just p
+  CircleValue (Circle c _) -> Just c
+  _ -> Nothing
 
 -- | Binds a name to a function, together with the local names that its body may use.
 defineFunction :: State -> Name -> NonEmpty Name -> Expr -> State

@@ -93,7 +93,10 @@ data Part = Part
     fittings :: [(Located Name, Fitting)],
     -- | for editors: the values of the definitions as text, each with the region of the defined
     -- name
-    readings :: [(Region, Text)]
+    readings :: [(Region, Text)],
+    -- | for pictures: the points, the vectors as points, and the centres of the circles that the
+    -- program defines by name
+    namedPoints :: [(Located Name, Point)]
   }
   deriving stock (Eq, Show)
 

@@ -100,6 +100,7 @@ timed machine control place f isFollowed = (m, place')
       FrameMeasure
         { number = next place,
           frame = f,
+          centrePath = path,
           beginsAt = ticks (startsAt place),
           endsAt = ticks end,
           waitedFor = 0,

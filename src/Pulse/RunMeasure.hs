@@ -33,7 +33,7 @@ import Pulse.ControllerRun
 import Pulse.ControllerRun qualified
 import Pulse.FeedWindow (FeedWindow)
 import Pulse.FeedWindow qualified as FeedWindow
-import Pulse.FramePath (AskedFeed)
+import Pulse.FramePath (AskedFeed, FramePath)
 import Pulse.FramePath qualified as FramePath
 import Pulse.Steps (Pulses5 (..), Steps)
 import Pulse.Steps qualified as Steps
@@ -42,6 +42,8 @@ import Pulse.Steps qualified as Steps
 data FrameMeasure = FrameMeasure
   { number :: Int,
     frame :: Frame,
+    -- | path of the cutter's centre; Nothing without motion
+    centrePath :: Maybe FramePath,
     beginsAt :: Tick,
     endsAt :: Tick,
     -- | ticks for which the controller waited before the frame, because it was not read
@@ -210,6 +212,7 @@ ended machine clock t m = (f, p')
       FrameMeasure
         { number = Pulse.ControllerRun.number s,
           frame = frameStarted s,
+          centrePath = path s,
           beginsAt = startTick s,
           endsAt = t,
           waitedFor = waited s,

@@ -7,6 +7,7 @@ module Pulse.Steps
     together,
     count,
     onAxis,
+    bitPattern,
     towards,
     Pulses5 (..),
     advance,
@@ -51,6 +52,10 @@ together (Steps a) (Steps b) = Steps (a .|. b)
 -- | Count of pulses.
 count :: Steps -> Int
 count (Steps a) = popCount a
+
+-- | Bits of the pulses, as the type describes them.
+bitPattern :: Steps -> Int
+bitPattern (Steps a) = a
 
 -- | Pulse on the axis with this index: 1, −1 or 0.
 onAxis :: Int -> Steps -> Int

@@ -34,11 +34,11 @@ spec = describe "the drawing of a tape" $ do
       snd texts `shouldNotBe` ""
       [x | (x, _, w, _) <- strips (drawing machine), x < 12 || x + w > 198] `shouldBe` []
   it "has the tracks of ISO 1154 for a tape of one inch" $ do
-    let Just g = TapeSheet.geometryOf (Machine.medium n55)
+    g <- maybe (fail "no tape") pure (TapeSheet.geometryOf (Machine.medium n55))
     TapeSheet.sprocketPosition g `shouldBe` 25.4 - 9.96
     map (hundredths . TapeSheet.trackPosition g) [1, 3, 4, 8] `shouldBe` [2306, 1798, 1290, 274]
   it "has three tracks beside the nearer edge of a narrow tape" $ do
-    let Just g = TapeSheet.geometryOf (Machine.medium kontur3p)
+    g <- maybe (fail "no tape") pure (TapeSheet.geometryOf (Machine.medium kontur3p))
     map (hundredths . TapeSheet.trackPosition g) [5, 3, 2, 1] `shouldBe` [236, 744, 1252, 1506]
   it "is only for punched tapes" $
     TapeSheet.sheet iso6983 "text" (zip [1 ..] (rowsOf iso6983)) `shouldBe` Nothing

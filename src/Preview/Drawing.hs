@@ -1,0 +1,315 @@
+-- | Part and toolpath as flat arrays for the page. The README of this folder describes them.
+module Preview.Drawing
+  ( container,
+    segmentNumbers,
+    toolsOf,
+    ToolKey,
+    toolKey,
+    toolChanges,
+  )
+where
+
+import Base.Name (Name)
+import Base.Name qualified as Name
+import Base.Quantity (Feed (..), LengthUnit (..), Mm (..), Rad (..))
+import Base.Region (Located (..), Region)
+import Base.Region qualified as Region
+import Control.Applicative ((<|>))
+import Data.Aeson (Value, object, (.=))
+import Data.Aeson.Types (Pair)
+import Data.ByteString.Lazy (ByteString)
+import Data.List qualified as List
+import Data.List.NonEmpty qualified as NonEmpty
+import Data.Maybe (fromMaybe, maybeToList)
+import Data.Text (Text)
+import Draw.Scene qualified as Scene
+import Geometry.Index.BoundingBox (BoundingBox (..))
+import Geometry.Index.BoundingBox qualified as BoundingBox
+import Geometry.Polyarc qualified as Polyarc
+import Geometry.Segment (Segment (..))
+import Geometry.Vec (Point)
+import Geometry.Vec qualified as Vec
+import Machine.BuiltIn qualified as BuiltIn
+import Machine.Machine (Machine, MachineName (..))
+import Machine.Machine qualified as Machine
+import Part.CutFeed qualified as CutFeed
+import Part.Part (Part)
+import Part.Part qualified as Part
+import Preview.Container (Numbers (..))
+import Preview.Container qualified as Container
+import Preview.ReportList (FileLines)
+import Preview.ReportList qualified as ReportList
+import Preview.Subject
+import Project.LoadedProgram (LoadedProgram (source))
+import Surface.Syntax qualified as Surface
+import Toolpath.Toolpath (Block (..), Move, Toolpath)
+import Toolpath.Toolpath qualified as Toolpath
+
+-- | Answer to the request @drawing@. The flag is true if the page can move the cursor of an editor.
+container :: Bool -> Followed -> ByteString
+container hasEditor followed = Container.encode (common <> subject) columns
+  where
+    (subject, columns) = case snd <$> sound followed of
+      Just (SoundProgram state) -> programDrawing (chosenMachine followed) state
+      Just (TapeAlone state) -> (tapeDrawing (fileName followed) state, [])
+      Nothing -> (nothingDrawn (fileName followed), [])
+    common =
+      [ "version" .= version followed,
+        "reports"
+          .= ReportList.reportList (fileName followed) (presentSource followed) (reports followed),
+        "presentFiles" .= ReportList.fileList (presentSource followed),
+        "present" .= (fmap fst (sound followed) == Just (version followed)),
+        "name" .= fileName followed,
+        "editor" .= hasEditor
+      ]
+
+-- | Members of the header while there is no picture.
+nothingDrawn :: Text -> [Pair]
+nothingDrawn name =
+  [ "kind" .= ("program" :: Text),
+    "drawn" .= False,
+    "title" .= name,
+    "unit" .= unitName Millimetres,
+    "turned" .= False,
+    "files" .= ([] :: [Value]),
+    "machines" .= ([] :: [Value]),
+    "machine" .= (Nothing :: Maybe Text),
+    "tools" .= ([] :: [Value]),
+    "points" .= ([] :: [Value]),
+    "contours" .= ([] :: [Value]),
+    "extents" .= (Nothing :: Maybe Value)
+  ]
+
+-- | Members of the header for a tape without its program.
+tapeDrawing :: Text -> TapeState -> [Pair]
+tapeDrawing name state =
+  [ "kind" .= ("tape" :: Text),
+    "drawn" .= True,
+    "title" .= name,
+    "unit" .= unitName Millimetres,
+    "turned" .= False,
+    "files" .= ([] :: [Value]),
+    "machines" .= [machineEntry (tapeMachine state)],
+    "machine" .= nameOf (tapeMachine state),
+    "tools" .= ([] :: [Value]),
+    "points" .= ([] :: [Value]),
+    "contours" .= ([] :: [Value]),
+    "extents" .= (Nothing :: Maybe Value)
+  ]
+
+-- | Members of the header and arrays of a program. The first argument is the machine that the
+-- command line names.
+programDrawing :: Maybe Text -> ProgramState -> ([Pair], [(Text, Numbers)])
+programDrawing chosen ProgramState {loaded, part, path, points} =
+  ( [ "kind" .= ("program" :: Text),
+      "drawn" .= True,
+      "title" .= titleOf part,
+      "unit" .= unitName (Toolpath.unit path),
+      "turned" .= Toolpath.isTurned path,
+      "files" .= ReportList.fileList (source loaded),
+      "machines" .= (map machineEntry BuiltIn.machines <> maybeToList (described part)),
+      "machine" .= (chosen <|> fmap (referenceName . value) (Part.machine part)),
+      "tools" .= map toolEntry tools,
+      "points" .= map pointEntry points,
+      "contours" .= zipWith (contourEntry known) starts shapes,
+      "extents" .= extents shapes path
+    ],
+    [ ("contour", Reals (concatMap (segmentNumbers . Part.segment) elements)),
+      ("contourPlace", Wholes (concatMap (placeNumbers known . Part.origin) elements)),
+      ("hole", Reals (concatMap holeNumbers (Part.operations part))),
+      ("rest", Reals (concatMap segmentNumbers (concat (Scene.restMaterialOf path)))),
+      ("move", Reals (concatMap (moveNumbers . moveDrawn) moves)),
+      ("moveInfo", Wholes (concatMap (moveInfo known) moves)),
+      ("moveFeed", Reals (map (feedOf . moveDrawn) moves))
+    ]
+  )
+  where
+    known = ReportList.fileLines (source loaded)
+    shapes = Scene.sidedContours part
+    elements = concatMap (NonEmpty.toList . Part.elements . fst) shapes
+    starts = scanl (+) 0 (map (NonEmpty.length . Part.elements . fst) shapes)
+    tools = toolsOf path
+    moves = movesOf tools path
+
+titleOf :: Part -> Text
+titleOf part = fromMaybe (maybe "" Name.text (Part.name part)) (Part.title part)
+
+unitName :: LengthUnit -> Text
+unitName unit = case unit of
+  Millimetres -> "mm"
+  Inches -> "inch"
+
+-- Machines ----------------------------------------------------------------------------------------
+
+machineEntry :: Machine -> Value
+machineEntry machine = object ["name" .= nameOf machine, "title" .= Machine.title machine]
+
+nameOf :: Machine -> Text
+nameOf machine = let MachineName name = Machine.name machine in name
+
+-- | Entry for the machine of the program if its description is a file.
+described :: Part -> Maybe Value
+described part = case value <$> Part.machine part of
+  Just (Surface.Described file) -> Just (object ["name" .= file, "title" .= file])
+  _ -> Nothing
+
+referenceName :: Surface.MachineRef -> Text
+referenceName reference = case reference of
+  Surface.Named name -> name
+  Surface.Described file -> file
+
+-- Tools -------------------------------------------------------------------------------------------
+
+-- | Kind and radius of a tool, by which the page distinguishes tools.
+type ToolKey = (Part.CutterKind, Mm)
+
+-- | Tools of a toolpath in the order of their first use.
+toolsOf :: Toolpath -> [ToolKey]
+toolsOf path =
+  List.nub
+    ( map toolKey (maybeToList (Toolpath.firstCutter (Toolpath.setup path)))
+        <> map snd (toolChanges path)
+    )
+
+-- | Tool changes of a toolpath in order: the region of the command, and the new tool.
+toolChanges :: Toolpath -> [(Region, ToolKey)]
+toolChanges path =
+  [ (region, toolKey cutter)
+    | Commanding (Located region (Part.ChangeTool _ cutter)) <- Toolpath.blocks path
+  ]
+
+toolKey :: Part.Cutter -> ToolKey
+toolKey cutter = (Part.kind cutter, Part.cutterRadius cutter)
+
+toolEntry :: ToolKey -> Value
+toolEntry (kind, Mm radius) = object ["kind" .= kindName kind, "radius" .= radius]
+
+kindName :: Part.CutterKind -> Text
+kindName kind = case kind of
+  Part.MillingCutter -> "mill"
+  Part.ConeCutter -> "cone"
+  Part.DovetailCutter -> "dovetail"
+  Part.BladeCutter _ -> "blade"
+  Part.DrillingCutter -> "drill"
+  Part.TurningCutter -> "turning"
+
+-- Points and contours -----------------------------------------------------------------------------
+
+pointEntry :: (Name, Point) -> Value
+pointEntry (name, p) = object ["name" .= Name.text name, "x" .= Vec.x p, "y" .= Vec.y p]
+
+-- | Entry of a contour whose first segment has an index.
+contourEntry :: FileLines -> Int -> (Part.Contour, Scene.MaterialSide) -> Value
+contourEntry known from (contour, side) =
+  object
+    [ "name" .= Name.text (value (Part.contourName contour)),
+      "closed" .= (Part.ends contour == Polyarc.Closed),
+      "from" .= from,
+      "count" .= NonEmpty.length (Part.elements contour),
+      "file" .= file,
+      "line" .= line,
+      "side" .= sideName side
+    ]
+  where
+    (file, line) = ReportList.lineOf known (Region.region (Part.contourName contour))
+
+sideName :: Scene.MaterialSide -> Text
+sideName side = case side of
+  Scene.Inside -> "inside"
+  Scene.Outside -> "outside"
+  Scene.Unknown -> "unknown"
+
+holeNumbers :: Part.Operation -> [Double]
+holeNumbers operation = case operation of
+  Part.Drill (Located _ drilling) ->
+    let Mm radius = Part.drillRadius drilling
+        Mm bottom = Part.bottom drilling
+     in concat
+          [ [Vec.x centre, Vec.y centre, radius, bottom]
+            | Located _ centre <- NonEmpty.toList (Part.holes drilling)
+          ]
+  _ -> []
+
+-- Moves -------------------------------------------------------------------------------------------
+
+-- | Move with what the page tells of it.
+data DrawnMove = DrawnMove
+  { moveDrawn :: Move,
+    isCut :: Bool,
+    -- | index of the tool, or −1
+    tool :: Int,
+    isInLastPass :: Bool
+  }
+
+movesOf :: [ToolKey] -> Toolpath -> [DrawnMove]
+movesOf tools path = concat (snd (List.mapAccumL ofBlock first (Toolpath.blocks path)))
+  where
+    first = maybe (-1) indexOf (Toolpath.firstCutter (Toolpath.setup path))
+    indexOf cutter = fromMaybe (-1) (List.elemIndex (toolKey cutter) tools)
+    isFinal = Scene.isLastPass path
+    ofBlock tool block = case block of
+      Commanding (Located _ (Part.ChangeTool _ cutter)) -> (indexOf cutter, [])
+      Commanding _ -> (tool, [])
+      Travelling _ _ moves -> (tool, map (linking tool True) moves)
+      Holing _ moves -> (tool, [DrawnMove m (Toolpath.pace m /= Part.Rapid) tool True | m <- moves])
+      Cutting {pass, approach, cut, retract} ->
+        let isLast = isFinal pass
+         in ( tool,
+              map (linking tool isLast) approach
+                <> [DrawnMove m True tool isLast | m <- NonEmpty.toList cut]
+                <> map (linking tool isLast) retract
+            )
+      Clearing {approach, cleared, retract} ->
+        ( tool,
+          map (linking tool True) approach
+            <> [DrawnMove m (Scene.isCut m) tool True | m <- NonEmpty.toList cleared]
+            <> map (linking tool True) retract
+        )
+    linking tool isLast m = DrawnMove m False tool isLast
+
+-- | The seven numbers of a segment.
+segmentNumbers :: Segment -> [Double]
+segmentNumbers s = case s of
+  Straight a b -> [Vec.x a, Vec.y a, Vec.x b, Vec.y b, 0, 0, 0]
+  Arc {start = a, end = b, centre = c, sweep = Rad turn} ->
+    [Vec.x a, Vec.y a, Vec.x b, Vec.y b, Vec.x c, Vec.y c, turn]
+
+moveNumbers :: Move -> [Double]
+moveNumbers m = segmentNumbers (Toolpath.segment m) <> [from, to]
+  where
+    (Mm from, Mm to) = Toolpath.heights m
+
+moveInfo :: FileLines -> DrawnMove -> [Int]
+moveInfo known d = [kind, tool d, file, line, fromEnum (isInLastPass d)]
+  where
+    m = moveDrawn d
+    (file, line) = ReportList.lineOf known (Toolpath.origin m)
+    kind
+      | Toolpath.pace m == Part.Rapid = 0
+      | isCut d = 2
+      | otherwise = 1
+
+-- | Feed of a move in mm\/min, or in mm for one turn of the spindle; 0 for a rapid move.
+feedOf :: Move -> Double
+feedOf m = case Toolpath.pace m of
+  Part.Rapid -> 0
+  Part.At (Located _ feed) -> case feed of
+    CutFeed.PerMinute (Feed v) -> v
+    CutFeed.PerTurn (Mm v) _ -> v
+
+-- | Extents of contours and moves along x, y and z; Nothing without any.
+extents :: [(Part.Contour, Scene.MaterialSide)] -> Toolpath -> Maybe [[Double]]
+extents shapes path = case map BoundingBox.ofSegment segments of
+  [] -> Nothing
+  b : bs ->
+    let BoundingBox left bottom right top = List.foldl' BoundingBox.union b bs
+     in Just [[left, right], [bottom, top], [minimum heights, maximum heights]]
+  where
+    segments =
+      [Part.segment e | (c, _) <- shapes, e <- NonEmpty.toList (Part.elements c)]
+        <> map Toolpath.segment moves
+    moves = concatMap Toolpath.moves (Toolpath.blocks path)
+    heights = 0 : [z | m <- moves, let (Mm a, Mm b) = Toolpath.heights m, z <- [a, b]]
+
+placeNumbers :: FileLines -> Region -> [Int]
+placeNumbers known region = let (file, line) = ReportList.lineOf known region in [file, line]

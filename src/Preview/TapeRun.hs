@@ -1,0 +1,131 @@
+-- | Tape that the page plays, with what it needs to know of each frame.
+module Preview.TapeRun
+  ( TapeRun (..),
+    FrameFact (..),
+    fromSound,
+  )
+where
+
+import Base.PulseVector (Pulses3)
+import Base.Region (Region)
+import Base.Result (Result (..))
+import Compile (Punched (..))
+import Compile qualified
+import Data.List qualified as List
+import Data.Maybe (fromMaybe)
+import Data.Text (Text)
+import Data.Text qualified as Text
+import Data.Vector (Vector)
+import Data.Vector qualified as Vector
+import Frame.Frame (PlannedFrame (origin, role), Role (..))
+import Frame.Frame qualified as Frame
+import Gcode.Heading qualified as Heading
+import Gcode.ToFrames (readFrames, readFrom)
+import Gcode.Writer qualified as Writer
+import Machine.Machine (Machine)
+import Machine.Machine qualified as Machine
+import Preview.Drawing qualified as Drawing
+import Preview.ReportList (FileLines)
+import Preview.ReportList qualified as ReportList
+import Preview.Subject
+import Project.LoadedProgram (LoadedProgram (descriptions, source))
+import Project.Target qualified as Target
+import Pulse.Controller (Console)
+import Pulse.Controller qualified as Controller
+import Report.Report (Report)
+import Tape.Tape (Tape)
+import Toolpath.Toolpath (Toolpath)
+import Toolpath.Toolpath qualified as Toolpath
+import Verify.FromGcode qualified as FromGcode
+
+-- | Tape with its machine.
+data TapeRun = TapeRun
+  { machine :: Machine,
+    console :: Console,
+    -- | position of the cutter before the tape
+    start :: Pulses3,
+    rows :: Tape,
+    -- | facts of the frames in order; empty for a tape without its program
+    facts :: Vector FrameFact,
+    -- | for a machine that reads a text: the text, and the line of each frame
+    text :: Maybe (Text, [Int])
+  }
+
+-- | Facts of a frame in the program: its tool as an index, or −1; the index of the file and the
+-- line that ask for it.
+data FrameFact = FrameFact {isCut :: Bool, tool :: Int, file :: Int, line :: Int}
+  deriving stock (Eq, Show)
+
+-- | Tape of a subject for the machine with a name. A tape without its program has only one machine.
+fromSound :: Sound -> Text -> Result Report Report TapeRun
+fromSound subject name = case subject of
+  SoundProgram state -> ofProgram state name
+  TapeAlone TapeState {tapeMachine, aloneTape, gcodeText} ->
+    pure
+      TapeRun
+        { machine = tapeMachine,
+          console = Controller.neutral,
+          start = 0,
+          rows = aloneTape,
+          facts = Vector.empty,
+          text = gcodeText
+        }
+
+ofProgram :: ProgramState -> Text -> Result Report Report TapeRun
+ofProgram ProgramState {loaded, part, path} name =
+  Target.targets (descriptions loaded) [name] part path >>= \case
+    machine : _ -> withFrames loaded path machine <$> Compile.punch machine path
+    [] -> Result [] [] Nothing
+
+withFrames :: LoadedProgram -> Toolpath -> Machine -> Punched -> TapeRun
+withFrames loaded path machine punched@Punched {program, tape} =
+  TapeRun
+    { machine,
+      console = Controller.consoleFor machine planned,
+      start = Frame.start program,
+      rows = tape,
+      facts = Vector.fromList (frameFacts (ReportList.fileLines (source loaded)) path planned),
+      text = writtenText machine path punched
+    }
+  where
+    planned = Frame.plannedFrames program
+
+-- | Files for a modern control, one after the other, and the line of each frame in them; Nothing
+-- for a machine that reads a tape.
+writtenText :: Machine -> Toolpath -> Punched -> Maybe (Text, [Int])
+writtenText machine path Punched {program, files} = written <$> Machine.programForm machine
+  where
+    texts = map Writer.fileText files
+    written form =
+      ( Text.concat texts,
+        either
+          (const [])
+          (map readFrom . readFrames)
+          (FromGcode.readTexts machine form (Heading.fromToolpath path) program texts)
+      )
+
+-- | Facts of planned frames. The tool changes at the frame of a tool change.
+frameFacts :: FileLines -> Toolpath -> [PlannedFrame] -> [FrameFact]
+frameFacts known path = snd . List.mapAccumL next (first, Drawing.toolChanges path)
+  where
+    tools = Drawing.toolsOf path
+    indexOf key = fromMaybe (-1) (List.elemIndex key tools)
+    first = maybe (-1) (indexOf . Drawing.toolKey) (Toolpath.firstCutter (Toolpath.setup path))
+    next ::
+      (Int, [(Region, Drawing.ToolKey)]) ->
+      PlannedFrame ->
+      ((Int, [(Region, Drawing.ToolKey)]), FrameFact)
+    next (now, changes) planned = case (role planned, changes) of
+      (Commanding, (at, key) : more) | at == origin planned -> fact (indexOf key) more
+      _ -> fact now changes
+      where
+        fact tool left =
+          let (file, line) = ReportList.lineOf known (origin planned)
+           in ((tool, left), FrameFact {isCut = cuts (role planned), tool, file, line})
+    cuts role' = case role' of
+      Cutting _ -> True
+      Drilling _ -> True
+      Approaching _ -> False
+      Retracting _ -> False
+      Linking -> False
+      Commanding -> False
