@@ -39,6 +39,8 @@ data Client = Client
     watchesFiles :: Bool,
     -- | true if the text of a completion may contain the marks of snippets
     snippets :: Bool,
+    -- | true if the client can be asked to show an address or a position
+    showsDocuments :: Bool,
     -- | true if the client wants inlay hints
     hints :: Bool,
     -- | the address of the folder that contains the pages of the manual; it ends in a stroke
@@ -62,6 +64,7 @@ fromInitialize params =
       refreshesLenses = inAll ["workspace", "codeLens", "refreshSupport"] == Just (Bool True),
       watchesFiles =
         inAll ["workspace", "didChangeWatchedFiles", "dynamicRegistration"] == Just (Bool True),
+      showsDocuments = inAll ["window", "showDocument", "support"] == Just (Bool True),
       snippets = at ["completion", "completionItem", "snippetSupport"] == Just (Bool True),
       hints = within ["initializationOptions", "inlayHints"] params == Just (Bool True),
       manual = case within ["initializationOptions", "manual"] params of
@@ -125,6 +128,7 @@ capabilities =
     "documentOnTypeFormattingProvider"
       .= object ["firstTriggerCharacter" .= ("\n" :: Text)],
     "documentFormattingProvider" .= True,
+    "executeCommandProvider" .= object ["commands" .= ["partc.preview" :: Text]],
     "codeActionProvider" .= object ["codeActionKinds" .= ["quickfix" :: Text]]
   ]
   where

@@ -10,6 +10,7 @@ module Lsp.Conversation
     WorkKind (..),
     Outcome (..),
     Effect (..),
+    PageOrder (..),
     Ending (..),
     client,
     adjusted,
@@ -92,8 +93,19 @@ data Effect
     Begin WorkOrder
   | -- | the worker stops its work
     Halt
+  | -- | an order to the pages of the preview
+    ForPage PageOrder
   | -- | the end of the conversation
     Stop Ending
+  deriving stock (Eq, Show)
+
+-- | An order to the pages of the preview.
+data PageOrder
+  = -- | the answer to the request with this identifier is the address of the page that follows the
+    -- document with this path
+    OpenPage Id Text
+  | -- | the cursor is in the document with this path, at this line from 1
+    CursorAt Text Int
   deriving stock (Eq, Show)
 
 -- | The end of the conversation: orderly after the request @shutdown@, abrupt without it.

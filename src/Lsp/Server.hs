@@ -38,7 +38,8 @@ import Control.Exception
     throwIO,
     try,
   )
-import Control.Monad (unless, void)
+import Control.Monad (unless, void, when)
+import Data.Aeson (Value (String), object, (.=))
 import Data.ByteString (ByteString)
 import Data.ByteString qualified as ByteString
 import Data.Maybe qualified as Maybe
@@ -46,14 +47,18 @@ import Data.Text (Text)
 import Data.Text qualified as Text
 import GHC.Clock (getMonotonicTimeNSec)
 import GHC.Stats qualified as Stats
+import Lsp.Capability (Client (showsDocuments))
 import Lsp.Conversation
 import Lsp.Diagnostic qualified as Diagnostic
-import Lsp.Message (Id, Outgoing (Refusal))
+import Lsp.Message (Id, Outgoing (Ask, Refusal, Result))
 import Lsp.Message qualified as Message
 import Lsp.OpenDocument (Milliseconds (..))
+import Lsp.PreviewPages (Pages)
+import Lsp.PreviewPages qualified as PreviewPages
 import Lsp.Schedule qualified as Schedule
 import Lsp.Session qualified as Session
 import Lsp.Transport qualified as Transport
+import Preview.Subject qualified as Subject
 import Project.LoadedProgram (LoadedProgram)
 import Project.MachineDescription qualified as MachineDescription
 import Query.Snapshot (Check)
@@ -91,7 +96,8 @@ serve host = do
   hasWritten <- newEmptyMVar
   _ <- forkIO (readMessages (input host) events)
   _ <- forkIO (writeMessages (output host) messages events >> putMVar hasWritten ())
-  ending <- converse Lines {host, events, messages, answers} Nothing start
+  pages <- PreviewPages.none
+  ending <- converse Lines {host, pages, events, messages, answers} Nothing start
   _ <- timeout patience (untilAnswered answers)
   writeChan messages Nothing
   isWritten <- timeout patience (takeMVar hasWritten)
@@ -108,6 +114,7 @@ serve host = do
 -- stream, and encoded messages for the writer, of which 'Nothing' is the last.
 data Lines = Lines
   { host :: Host,
+    pages :: Pages,
     events :: Chan (Maybe Event),
     messages :: Chan (Maybe ByteString),
     -- | the count of answers that are being computed
@@ -268,7 +275,34 @@ performAll between session worker effects = case effects of
       modifyMVar_ (answers between) (pure . (+ 1))
       _ <- forkIO (answerBeside between ident answer)
       performAll between session worker more
+    ForPage order -> do
+      _ <- forkIO (performOrder between session order)
+      performAll between session worker more
     Send _ -> performAll between session worker more
+
+-- | Carries out an order to the pages of the preview.
+performOrder :: Lines -> Session -> PageOrder -> IO ()
+performOrder Lines {host, pages, messages} session order = case order of
+  CursorAt path line -> PreviewPages.cursorAt pages path line
+  OpenPage ident path -> do
+    found <- PreviewPages.open pages (if canShow then Just send else Nothing) path (state path)
+    case found of
+      Nothing -> send (Refusal ident (Session.bug "the page cannot be served"))
+      Just address -> do
+        send (Result ident (object ["uri" .= address]))
+        when canShow (send (external address))
+  where
+    canShow = any showsDocuments (client session)
+    send = writeChan messages . Just . Message.encode
+    texts = Session.openTexts session
+    state path = do
+      loaded <- load host texts path (Maybe.fromMaybe "" (lookup path texts))
+      pure (Subject.afterSnapshot loaded (Snapshot.take (check host) loaded))
+    external address =
+      Ask
+        (String "show-page")
+        "window/showDocument"
+        (object ["uri" .= address, "external" .= True, "takeFocus" .= True])
 
 -- | Computes and sends the answer to a request. The request is refused if this takes too long or
 -- raises an exception.
@@ -290,7 +324,7 @@ stopThread = void . forkIO . killThread
 -- | Does the work of the worker, and passes the results to the main thread. @texts@ are the open
 -- documents.
 perform :: Lines -> [(Text, Text)] -> WorkOrder -> IO ()
-perform Lines {host, events} texts WorkOrder {number, kind, path, text} = do
+perform Lines {host, pages, events} texts WorkOrder {number, kind, path, text} = do
   ended <- try (doWork kind)
   case ended of
     Right () -> pure ()
@@ -313,6 +347,7 @@ perform Lines {host, events} texts WorkOrder {number, kind, path, text} = do
           tell (EvaluationChecked early)
           evaluate (force complete)
           tell (AllChecked complete)
+          PreviewPages.update pages path (Subject.afterSnapshot loaded complete)
       TapeProof -> do
         loaded <- load host texts path text
         facts <- evaluate (prove host loaded)

@@ -111,10 +111,17 @@ request now ident name params session = case (phase session, name) of
     | Just ofAll <- Request.workspaceMethod name ->
       let subjects = map (OpenDocument.subject []) (Map.elems (documents session))
        in (session, [Answer ident (Schedule.answered ident (ofAll subjects) params)])
+  (Running _, "workspace/executeCommand") -> case Aeson.parseMaybe previewed params of
+    Just path
+      | Map.member path (documents session) -> (session, [ForPage (OpenPage ident path)])
+      | otherwise -> refuse InvalidParams "this document is not open"
+    Nothing -> refuse InvalidParams "the command is partc.preview, with the address of a document"
   (Running c, _) -> case (Request.method name, Aeson.parseEither named params) of
     (Nothing, _) -> refuse MethodNotFound ("there is no request " <> name)
     (_, Left why) -> refuse InvalidParams (Text.pack why)
-    (_, Right path) -> asked now c path waitingRequest session
+    (_, Right path) ->
+      let (session', effects) = asked now c path waitingRequest session
+       in (session', effects <> cursorEffects name params)
   where
     refusals path = snd (Schedule.refuseWaiting Schedule.tooLate path session)
     refuse code why = (session, [Send (Refusal ident (Failure code why))])
@@ -125,6 +132,28 @@ request now ident name params session = case (phase session, name) of
           parameters = params,
           refusedAt = now `plus` Schedule.patience (Request.need name)
         }
+
+-- | The path of the document in the command @partc.preview@.
+previewed :: Value -> Parser Text
+previewed = withObject "parameters" $ \o -> do
+  command <- o .: "command"
+  arguments <- o .: "arguments"
+  case (command :: Text, arguments) of
+    ("partc.preview", [uri]) -> pure (Uri.toPath uri)
+    _ -> fail "another command"
+
+-- | The order to the pages of the preview for a message that says where the cursor is: the
+-- notification of our own extension, or the request that other editors send for the name at the
+-- cursor.
+cursorEffects :: Text -> Value -> [Effect]
+cursorEffects name params
+  | name `elem` ["partc/cursor", "textDocument/documentHighlight"],
+    Just (path, line) <- Aeson.parseMaybe cursorOf params =
+    [ForPage (CursorAt path (line + 1))]
+  | otherwise = []
+  where
+    cursorOf all' = (,) <$> named all' <*> withObject "parameters" lineOf all'
+    lineOf o = o .: "position" >>= withObject "a position" (.: "line")
 
 -- | Answers a request about the document with this path, or lets it wait for results.
 asked :: Milliseconds -> Client -> Text -> WaitingRequest -> Session -> (Session, [Effect])
@@ -157,6 +186,7 @@ notified c now name params session = case name of
   "textDocument/didChange" -> Aeson.parseMaybe changeOf params >>= edited now session
   "textDocument/didSave" -> Just (changedWhere now (const True) session)
   "textDocument/didClose" -> Aeson.parseMaybe named params >>= closed c now session
+  "partc/cursor" -> Just (session, cursorEffects name params)
   "workspace/didChangeWatchedFiles" -> do
     paths <- Aeson.parseMaybe changedFiles params
     Just (changedWhere now (\o -> any (`OpenDocument.dependsOn` o) paths) session)

@@ -18,6 +18,7 @@ import Files (readText)
 import Lsp.Conversation (Ending (..))
 import Lsp.Server (Host (..))
 import Lsp.Server qualified as Server
+import Lsp.Stream (notice, opened, question, send, until', within)
 import Lsp.Talk (about, addressOf, field)
 import Lsp.Transport (Received (..))
 import Lsp.Transport qualified as Transport
@@ -27,7 +28,7 @@ import Query.Snapshot qualified as Snapshot
 import Query.TapeFacts qualified as TapeFacts
 import System.Environment (getEnvironment)
 import System.Exit (ExitCode (..))
-import System.IO (Handle, hClose, hFlush, hSetBinaryMode)
+import System.IO (Handle, hClose, hSetBinaryMode)
 import System.Process
   ( CreateProcess (..),
     ProcessHandle,
@@ -38,7 +39,6 @@ import System.Process
     terminateProcess,
     waitForProcess,
   )
-import System.Timeout (timeout)
 import Test.Hspec
 
 spec :: Spec
@@ -186,34 +186,6 @@ slowHover =
 initialize :: ByteString
 initialize = question 0 "initialize" (object ["capabilities" .= object []])
 
-opened :: Text -> ByteString
-opened text =
-  notice
-    "textDocument/didOpen"
-    ( object
-        [ "textDocument"
-            .= object
-              [ "uri" .= addressOf,
-                "languageId" .= ("part" :: Text),
-                "version" .= (1 :: Int),
-                "text" .= text
-              ]
-        ]
-    )
-
-question :: Int -> Text -> Value -> ByteString
-question ident method params = encoded ["id" .= ident, "method" .= method, "params" .= params]
-
-notice :: Text -> Value -> ByteString
-notice method params = encoded ["method" .= method, "params" .= params]
-
-encoded :: [(Aeson.Key, Value)] -> ByteString
-encoded fields =
-  LazyByteString.toStrict (Aeson.encode (object (("jsonrpc" .= ("2.0" :: Text)) : fields)))
-
-send :: Handle -> ByteString -> IO ()
-send to message = ByteString.hPut to (Transport.framed message) *> hFlush to
-
 -- | Sends messages, each after the answer to the one before, and closes the stream. The result: the
 -- exit status, the bytes after the server's last message, and its messages other than
 -- notifications.
@@ -244,23 +216,6 @@ unframed bytes = case Transport.next bytes of
 -- | Runs an action with the streams of a server, then ends the server.
 talking :: [String] -> (Handle -> Handle -> IO ()) -> IO ()
 talking arguments act = void . within . withServer arguments $ \to from _ -> act to from
-
--- | The next message and the bytes received after it. The bytes given were received before.
-nextFrom :: ByteString -> Handle -> IO (ByteString, Value)
-nextFrom waiting from = case Transport.next waiting of
-  Complete body rest | Just value <- Aeson.decodeStrict body -> pure (rest, value)
-  Incomplete _ -> do
-    bytes <- ByteString.hGetSome from 65536
-    if ByteString.null bytes then fail "the server is gone" else nextFrom (waiting <> bytes) from
-  _ -> fail "this is not the protocol"
-
--- | Messages up to the first that fulfils a condition, and the bytes received after it.
-until' :: (Value -> Bool) -> ByteString -> Handle -> IO (ByteString, [Value])
-until' isLast received from = do
-  (rest, value) <- nextFrom received from
-  if isLast value
-    then pure (rest, [value])
-    else fmap (value :) <$> until' isLast rest from
 
 -- | True of the notification that the diagnostics of this version are complete.
 isSettled :: Int -> Value -> Bool
@@ -302,10 +257,6 @@ inProcess check act = within $ do
   act to from
   hClose to
   takeMVar done `shouldReturn` Abrupt
-
--- | Fails after half a minute.
-within :: IO a -> IO a
-within act = timeout 30000000 act >>= maybe (fail "the server did not answer in time") pure
 
 -- | Runs an action with a server in a process of its own, with these options.
 withServer :: [String] -> (Handle -> Handle -> ProcessHandle -> IO a) -> IO a

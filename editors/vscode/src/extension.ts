@@ -16,6 +16,9 @@ export async function activate(context: vscode.ExtensionContext): Promise<void> 
     vscode.commands.registerCommand('partc.restart', () => running.restart()),
     vscode.commands.registerCommand('partc.compile', () => compile()),
     vscode.commands.registerCommand('partc.showPicture', () => panel.show()),
+    vscode.window.onDidChangeTextEditorSelection(({ textEditor }) => {
+      if (textEditor.document.languageId === 'part') running.cursorAt(textEditor.document, textEditor.selection.active)
+    }),
     vscode.workspace.onDidChangeConfiguration(async (change) => {
       const concerned = ['partc.path', 'partc.arguments'].some((name) => change.affectsConfiguration(name))
       if (concerned && running.isWanted) await running.restart()

@@ -75,6 +75,16 @@ export class Server implements vscode.Disposable {
     }
   }
 
+  // Tells the pages of the preview where the cursor is.
+  cursorAt(document: vscode.TextDocument, position: vscode.Position): void {
+    const client = this.client
+    if (!client?.isRunning()) return
+    void client.sendNotification('partc/cursor', {
+      textDocument: client.code2ProtocolConverter.asTextDocumentIdentifier(document),
+      position: client.code2ProtocolConverter.asPosition(position),
+    })
+  }
+
   private enqueue(task: () => Promise<void>): Promise<void> {
     this.queue = this.queue.then(task).catch((failure) => this.log.appendLine(String(failure)))
     return this.queue
@@ -117,6 +127,15 @@ export class Server implements vscode.Disposable {
       // The problem matcher has the same name, so that a report of `partc compile` replaces that of the server.
       diagnosticCollectionName: 'partc',
       outputChannel: this.log,
+      // The command partc.preview of the server is about the active document, unless its caller names another one. The
+      // server then asks VS Code to open the page in the browser.
+      middleware: {
+        executeCommand: (command, args, next) => {
+          const document = vscode.window.activeTextEditor?.document
+          const own = document && this.client?.code2ProtocolConverter.asUri(document.uri)
+          return next(command, args.length > 0 || !own ? args : [own])
+        },
+      },
       // Files that a program may import or name.
       synchronize: { fileEvents: vscode.workspace.createFileSystemWatcher('**/*.{part,csv,machine}') },
     }
