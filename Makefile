@@ -42,7 +42,7 @@ NPM_CI := $(NPM) ci --ignore-scripts --no-audit --no-fund
 banner = @printf '== %s\n' '$(1)'
 quietly = @bash scripts/quietly.sh
 
-.PHONY: mutants pictures tree-sitter-test editors-test controls-test client-test vsix vscode-test help setup build test check format format-check lint commits bench demo install deb dist deb-try clean
+.PHONY: mutants preview-test pictures tree-sitter-test editors-test controls-test client-test vsix vscode-test help setup build test check format format-check lint commits bench demo install deb dist deb-try clean
 
 help: ## this list
 	@printf 'make demo|test|...\n\n'
@@ -178,6 +178,13 @@ vscode-test: needs-vscode $(if $(filter command,$(origin PARTC)),,build) ## test
 	$(call banner,test)
 	@PARTC="$(PARTC)" $(NPM) --silent test
 
+# Node.js may come from elsewhere than Debian; then its package is not needed.
+preview-test: needs-preview $(if $(shell command -v npm),,needs-vscode) $(if $(filter command,$(origin PARTC)),,build) ## test the page of the preview in Chromium; screenshots in build/preview
+	$(call banner,libraries from npm)
+	$(quietly) npm --prefix test/browser ci --ignore-scripts --no-audit --no-fund
+	$(call banner,lint and test)
+	@PARTC="$(PARTC)" bash scripts/preview-test.sh
+
 clean: ## remove everything that was built
 	@rm -rf .stack-work .stack-work-check .stack-work-bench .stack-work-quick build partc.cabal
-	@rm -rf editors/vscode/node_modules editors/vscode/out
+	@rm -rf editors/vscode/node_modules editors/vscode/out test/browser/node_modules

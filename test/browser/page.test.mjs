@@ -1,0 +1,505 @@
+// Tests of the page in headless Chromium against the mock server.
+
+import assert from 'node:assert/strict';
+import fs from 'node:fs';
+import test, { after, before } from 'node:test';
+import { chromium } from 'playwright-core';
+import { start } from './mock-server.mjs';
+
+const ARGS = ['--no-sandbox', '--use-angle=swiftshader', '--use-gl=angle',
+  '--enable-unsafe-swiftshader', '--ignore-gpu-blocklist', '--enable-precise-memory-info'];
+const AXE = fs.readFileSync(new URL('./node_modules/axe-core/axe.min.js', import.meta.url), 'utf8');
+let mock;
+let browser;
+
+before(async () => {
+  mock = await start();
+  browser = await chromium.launch({ executablePath: '/usr/bin/chromium', args: ARGS });
+});
+after(async () => {
+  await browser.close();
+  await mock.stop();
+});
+
+async function open(options = {}, mode = 'plate', control = {}) {
+  mock.state.change('plate', control);
+  mock.state.change(mode, control);
+  const context = await browser.newContext({ viewport: { width: 1280, height: 800 }, ...options });
+  const page = await context.newPage();
+  page.faults = [];
+  page.on('console', (m) => {
+    const harmless = /willReadFrequently|GPU stall/.test(m.text());
+    if (m.type() !== 'info' && !harmless) page.faults.push(m.text());
+  });
+  page.on('pageerror', (e) => page.faults.push(e.stack));
+  page.on('request', (r) => { if (!r.url().startsWith(mock.url)) page.faults.push(r.url()); });
+  await page.goto(mock.url);
+  await page.waitForFunction(() => window.partc?.state.drawing
+    && window.partc.state.runState !== 'loading');
+  await page.waitForFunction(() => !partc.state.machine || partc.state.frames);
+  await page.evaluate(() => new Promise((done) => {
+    requestAnimationFrame(() => requestAnimationFrame(done));
+  }));
+  page.screen = (x, y) => page.evaluate(([a, b]) => {
+    const r = document.getElementById('plan').getBoundingClientRect();
+    const v = partc.plan.viewport;
+    return [r.left + v.sx(a), r.top + v.sy(b)];
+  }, [x, y]);
+  page.clickAt = async (x, y) => page.mouse.click(...await page.screen(x, y));
+  page.end = async (allowed = /^$/) => {
+    const faults = page.faults.filter((fault) => !allowed.test(fault));
+    await context.close();
+    assert.deepEqual(faults, []);
+  };
+  return page;
+}
+
+const inked = (page, id) => page.evaluate(async (name) => {
+  for (let k = 0; k < 3; k++) await new Promise((done) => requestAnimationFrame(done));
+  const canvas = document.getElementById(name);
+  const { data } = canvas.getContext('2d').getImageData(0, 0, canvas.width, canvas.height);
+  let n = 0;
+  for (let i = 3; i < data.length; i += 4) if (data[i] > 0) n += 1;
+  return n;
+}, id);
+
+test('the picture appears', async () => {
+  const page = await open();
+  assert.ok(await inked(page, 'plan-base') > 5000);
+  assert.ok(await inked(page, 'plan-path') > 1000);
+  assert.ok(await inked(page, 'plan-swept') > 10000);
+  assert.match(await page.title(), /plate\.part/);
+  assert.equal(await page.textContent('#status'), 'no mistakes');
+  await page.end();
+});
+
+test('an error shows reports and keeps the picture; then the page recovers', async () => {
+  const page = await open();
+  await page.evaluate(() => partc.plan.zoomBy(3));
+  const view = () => page.evaluate(() => JSON.stringify(partc.plan.viewport.copy()));
+  const old = await view();
+  const run = await page.evaluateHandle(() => partc.state.run);
+  mock.state.change('error');
+  await page.waitForSelector('.report.error');
+  assert.ok(await page.isVisible('#stale'));
+  assert.match(await page.textContent('.report.error .excerpt'), /line\(\(0, 80\), \(120, 80\)\)/);
+  assert.match(await page.textContent('.report.error .hint'), /fillet/);
+  assert.match(await page.textContent('#status'), /1 error, 1 warning/);
+  assert.equal(await view(), old);
+  assert.ok(await page.evaluate((r) => partc.state.run === r, run));
+  await page.click('.report.error');
+  assert.ok(await page.isVisible('.vrow.chosen.has-error'));
+  assert.ok(await inked(page, 'plan-base') > 1000);
+  mock.state.change('plate');
+  await page.waitForFunction(() => partc.state.drawing.header.present);
+  await page.waitForSelector('.report', { state: 'detached' });
+  assert.ok(!await page.isVisible('#stale'));
+  assert.equal(await view(), old);
+  await page.end();
+});
+
+test('a page that is opened with an error shows the last good picture', async () => {
+  const page = await open({}, 'error');
+  assert.ok(await page.isVisible('#stale'));
+  assert.ok(await inked(page, 'plan-path') > 1000);
+  await page.end();
+});
+
+test('a text that never had a picture shows its reports only', async () => {
+  const page = await open({}, 'broken');
+  await page.waitForSelector('.report.error');
+  assert.ok(await page.isVisible('#empty'));
+  assert.ok(!await page.isVisible('#stale'));
+  mock.state.change('plate');
+  await page.waitForFunction(() => partc.state.frames);
+  assert.ok(await inked(page, 'plan-path') > 1000);
+  await page.end();
+});
+
+test('a tape without its program is shown and played', async () => {
+  const page = await open({}, 'tape');
+  await page.waitForFunction(() => partc.state.frames);
+  assert.ok(await inked(page, 'plan-path') > 1000);
+  await page.click('#frame-on');
+  await page.click('#view-space');
+  await page.click('#tab-tape');
+  await page.waitForFunction(() => /address X/
+    .test(document.getElementById('tape-rows').textContent));
+  await page.end();
+});
+
+test('playback runs to the end, backwards, and by steps', async () => {
+  const page = await open();
+  await page.selectOption('#speed', '100');
+  await page.click('#play');
+  await page.waitForFunction(() => partc.clock.tick === partc.clock.end, null, { timeout: 20000 });
+  assert.equal(await page.evaluate(() => partc.clock.direction), 0);
+  assert.match(await page.textContent('#readout'), /stopped: at the end of the tape/);
+  await page.click('#play-back');
+  await page.waitForFunction(() => partc.clock.tick === 0, null, { timeout: 20000 });
+  await page.click('#frame-on');
+  await page.click('#frame-on');
+  const [tick, begin] = await page.evaluate(() => [partc.clock.tick,
+    partc.state.run.arrays.frameTick[9]]);
+  assert.equal(tick, begin);
+  await page.click('#pulse-on');
+  assert.ok(await page.evaluate(() => partc.state.pulses.arrays.pulseTick
+    .includes(partc.clock.tick)));
+  await page.click('#pulse-back');
+  await page.focus('#plan');
+  await page.keyboard.press('End');
+  assert.ok(await page.evaluate(() => partc.clock.tick === partc.clock.end));
+  await page.keyboard.press('Home');
+  await page.keyboard.press(' ');
+  assert.equal(await page.evaluate(() => partc.clock.direction), 1);
+  await page.keyboard.press(' ');
+  await page.end();
+});
+
+test('the swept area and the trace are the same however a tick is reached', async () => {
+  for (const mode of ['plate', 'big20000']) {
+    const page = await open({}, mode);
+    await page.selectOption('#machine', 'linuxcnc-mill');
+    await page.waitForFunction(() => partc.state.run?.header.machine === 'linuxcnc-mill');
+    const at = async (part) => {
+      await page.evaluate((x) => partc.player.seek(partc.clock.end * x), part);
+      for (let k = 0; k < 12; k++) await page.evaluate(() => partc.draw());
+    };
+    for (const part of [0.2, 0.8, 0.7, 0.69, 0.68, 0.3, 0.31, 0.62, 0.6, 0.601]) await at(part);
+    const wandered = [await inked(page, 'plan-swept'), await inked(page, 'plan-trace')];
+    await page.evaluate(() => partc.plan.touch());
+    await at(0.601);
+    const fresh = [await inked(page, 'plan-swept'), await inked(page, 'plan-trace')];
+    for (const k of [0, 1]) {
+      assert.ok(fresh[k] > 500 && Math.abs(fresh[k] - wandered[k]) < 0.01 * fresh[k],
+        `${mode}: ${wandered} against ${fresh}`);
+    }
+    await page.end();
+  }
+});
+
+function container(bytes) {
+  const size = bytes.readUInt32LE(0);
+  const header = JSON.parse(bytes.subarray(8, 8 + size).toString());
+  const base = 8 + Math.ceil(size / 8) * 8;
+  const read = { f64: ['readDoubleLE', 8], i32: ['readInt32LE', 4], u8: ['readUInt8', 1] };
+  const arrays = {};
+  for (const [name, { type, offset, length }] of Object.entries(header.arrays)) {
+    const [method, step] = read[type];
+    arrays[name] = Array.from({ length }, (_, i) => bytes[method](base + offset + i * step));
+  }
+  return { header, arrays };
+}
+
+async function fetched(name, machine) {
+  const { url, state } = mock;
+  const response = await fetch(`${url}${name}?version=${state.version}&machine=${machine}`);
+  return container(Buffer.from(await response.arrayBuffer()));
+}
+
+test('the position with pulses agrees with an independent count', async () => {
+  const page = await open();
+  const run = await fetched('run', 'mark-century');
+  const pulses = await fetched('pulses', 'mark-century');
+  const end = run.arrays.frameTick.at(-2);
+  for (const part of [0, 0.001, 0.1, 0.2501, 0.33, 0.5, 0.66, 0.75, 0.999, 1]) {
+    const tick = Math.floor(end * part);
+    let frame = -1;
+    for (let i = 0; i < run.arrays.frame.length / 9; i++) {
+      if (run.arrays.frameTick[3 * i] <= tick) frame = i;
+    }
+    const at = [0, 1, 7].map((k) => run.arrays.frame[9 * frame + k]);
+    for (let i = pulses.arrays.framePulse[frame]; i < pulses.arrays.framePulse[frame + 1]; i++) {
+      if (pulses.arrays.pulseTick[i] > tick) continue;
+      for (let k = 0; k < 3; k++) {
+        const bits = Math.floor(pulses.arrays.pulseSteps[i] / 4 ** k) % 4;
+        at[k] += run.header.axes[k].pulse * [0, 1, -1, 0][bits];
+      }
+    }
+    const got = await page.evaluate((t) => partc.positionAt(t), tick);
+    assert.equal(got.frame, frame);
+    for (const [k, axis] of ['x', 'y', 'z'].entries()) {
+      assert.ok(Math.abs(got[axis] - at[k]) < 1e-9, `${axis} at ${tick}: ${got[axis]}, ${at[k]}`);
+    }
+  }
+  await page.end();
+});
+
+test('another machine is played, without pulses evenly', async () => {
+  const page = await open();
+  await page.selectOption('#machine', 'linuxcnc-mill');
+  await page.waitForFunction(() => partc.state.run?.header.machine === 'linuxcnc-mill');
+  const run = await fetched('run', 'linuxcnc-mill');
+  const i = run.arrays.frame.findIndex((v, k) => k % 9 === 6 && v > 0);
+  const frame = Math.floor(i / 9);
+  const [t0, t1] = run.arrays.frameTick.slice(3 * frame, 3 * frame + 2);
+  const s = run.arrays.frame.slice(9 * frame, 9 * frame + 9);
+  const got = await page.evaluate((t) => partc.positionAt(t), t0 + 0.3 * (t1 - t0));
+  const a = Math.atan2(s[1] - s[5], s[0] - s[4]) + 0.3 * s[6];
+  const r = Math.hypot(s[0] - s[4], s[1] - s[5]);
+  assert.ok(Math.hypot(got.x - s[4] - r * Math.cos(a), got.y - s[5] - r * Math.sin(a)) < 1e-9);
+  assert.ok(await page.isDisabled('#pulse-on'));
+  await page.click('#tab-tape');
+  await page.evaluate((t) => partc.player.seek(t), t0 + 0.3 * (t1 - t0));
+  await page.waitForSelector('#tape-text .vrow.present');
+  await page.waitForFunction(() => /G1 X/.test(
+    document.querySelector('#tape-text .vrow.present')?.textContent));
+  await page.end();
+});
+
+test('a drawing without a machine asks for one', async () => {
+  const page = await open({}, 'plate', { machine: null });
+  assert.match(await page.textContent('#no-run'), /Choose a machine to play the tape/);
+  await page.selectOption('#machine', 'mark-century');
+  await page.waitForSelector('#player', { state: 'visible' });
+  await page.end();
+});
+
+test('frames, lines and the picture choose each other', async () => {
+  const page = await open();
+  await page.click('#tab-frames');
+  await page.click('#frame-list .vrow[data-index="9"]');
+  const selection = () => page.evaluate(() => ({ ...partc.state.selection }));
+  assert.deepEqual([(await selection()).frame, (await selection()).line], [9, 27]);
+  await page.click('#tab-text');
+  assert.equal(await page.textContent('#text-list .vrow.chosen .num'), '27');
+  assert.ok(await inked(page, 'plan-mark') > 50);
+  await page.$eval('#text-list', (list) => { list.scrollTop = 600; });
+  await page.click('#text-list .vrow[data-index="42"]');
+  assert.deepEqual([(await selection()).line, (await selection()).frame], [43, -1]);
+  await page.click('#text-list .vrow[data-index="33"]');
+  await page.waitForTimeout(50);
+  assert.ok(await inked(page, 'plan-mark') > 50);
+  mock.state.shown.length = 0;
+  await page.clickAt(125, 40);
+  const chosen = await selection();
+  assert.equal(chosen.line, 27);
+  assert.ok(chosen.frame > 0);
+  await page.waitForTimeout(100);
+  assert.deepEqual(mock.state.shown, [{ file: 0, line: 27, column: 1 }]);
+  await page.clickAt(60, 30);
+  assert.equal((await selection()).line, 21);
+  mock.state.tell({ cursor: { file: 0, line: 34 } });
+  await page.waitForFunction(() => partc.state.selection.line === 34);
+  await page.end();
+});
+
+test('measuring snaps, and speaks in the unit of the program', async () => {
+  const page = await open({}, 'plate', { unit: 'inch' });
+  await page.click('#measure-button');
+  const at = await page.screen(0, 12);
+  await page.mouse.click(at[0] + 4, at[1] - 3);
+  const to = await page.screen(12, 68);
+  await page.mouse.click(to[0] - 2, to[1] + 3);
+  const text = await page.textContent('#measure-text');
+  const inches = (mm) => (mm / 25.4).toFixed(4);
+  assert.ok(text.includes(`Distance ${inches(Math.hypot(12, 56))} in`), text);
+  assert.ok(text.includes(`Δx ${inches(12)} in, Δy ${inches(56)} in`), text);
+  assert.match(text, /centre of an arc, radius/);
+  assert.equal(await page.getAttribute('#measure-text', 'aria-live'), 'polite');
+  await page.keyboard.press('Escape');
+  await page.keyboard.press('Escape');
+  assert.ok(!await page.isVisible('#measure-text'));
+  await page.end();
+});
+
+test('the keyboard measures too', async () => {
+  const page = await open();
+  await page.keyboard.press('m');
+  await page.focus('#plan');
+  const go = async (x, y) => {
+    await page.evaluate(([a, b]) => {
+      const v = partc.plan.viewport;
+      partc.plan.cross = [Math.round(v.sx(a)) + 3, Math.round(v.sy(b)) + 2];
+    }, [x, y]);
+    await page.keyboard.press('Shift+ArrowLeft');
+    await page.keyboard.press('Enter');
+  };
+  await go(20, 40);
+  await go(100, 40);
+  assert.match(await page.textContent('#measure-text'), /^Distance 80\.000 mm/);
+  await page.end();
+});
+
+test('texts and machines are compared', async () => {
+  const page = await open();
+  mock.state.change('changed');
+  await page.waitForFunction(() => partc.state.before
+    && partc.state.drawing.header.files[0].text.includes('130'));
+  await page.selectOption('#compare', 'before');
+  await page.waitForFunction(() => partc.state.other?.kind === 'before');
+  const counts = await page.evaluate(() => partc.state.other.counts);
+  assert.ok(counts.gone > 4 && counts.fresh > 4 && counts.contourGone > 2);
+  assert.match(await page.textContent('#legend'), /\u2212 gone\+ new/);
+  await page.selectOption('#compare', 'machine:linuxcnc-mill');
+  await page.waitForFunction(() => partc.state.other?.kind === 'machine');
+  assert.ok(await page.evaluate(() => partc.state.other.apart.distance) < 0.03);
+  await page.end();
+});
+
+test('the three-dimensional view draws, turns and chooses', async () => {
+  const page = await open();
+  await page.keyboard.press('4');
+  await page.waitForTimeout(200);
+  const first = await page.locator('#space').screenshot();
+  await page.focus('#space');
+  for (let i = 0; i < 4; i++) await page.keyboard.press('ArrowRight');
+  await page.waitForTimeout(200);
+  assert.ok(!first.equals(await page.locator('#space').screenshot()));
+  await page.click('[data-side=top]');
+  const at = await page.evaluate(() => {
+    const box = document.getElementById('space').getBoundingClientRect();
+    const c = partc.space.camera;
+    const p = c.project(c.matrix(), 125, 40, -8, [0, 0]);
+    return [box.left + p[0], box.top + p[1]];
+  });
+  await page.waitForTimeout(100);
+  await page.mouse.click(...at);
+  assert.equal(await page.evaluate(() => partc.state.selection.line), 27);
+  await page.end();
+});
+
+async function violations(page) {
+  await page.evaluate(AXE);
+  const result = await page.evaluate(() => axe.run(document, { resultTypes: ['violations'] }));
+  return result.violations.filter((v) => ['serious', 'critical'].includes(v.impact))
+    .map((v) => `${v.id}: ${v.nodes.map((n) => n.html).join(' | ').slice(0, 400)}`);
+}
+
+for (const colorScheme of ['light', 'dark']) {
+  test(`axe finds nothing serious (${colorScheme})`, async () => {
+    const page = await open({ colorScheme, bypassCSP: true });
+    assert.deepEqual(await violations(page), []);
+    await page.click('#tab-frames');
+    await page.click('#frame-list .vrow[data-index="3"]');
+    await page.click('#layers-button');
+    assert.deepEqual(await violations(page), []);
+    await page.click('#tab-tape');
+    await page.evaluate(() => partc.player.seek(partc.clock.end / 2));
+    await page.waitForTimeout(200);
+    await page.selectOption('#compare', 'machine:linuxcnc-mill');
+    await page.click('#view-space');
+    await page.waitForTimeout(200);
+    assert.deepEqual(await violations(page), []);
+    mock.state.change('error');
+    await page.waitForSelector('.report.error');
+    await page.click('#tab-text');
+    assert.deepEqual(await violations(page), []);
+    await page.keyboard.press('Escape');
+    await page.keyboard.press('?');
+    assert.deepEqual(await violations(page), []);
+    await page.end();
+  });
+}
+
+test('a phone sees everything without scrolling sideways, and pans and pinches', async () => {
+  const viewport = { width: 360, height: 740 };
+  const page = await open({ viewport, hasTouch: true, isMobile: true });
+  const wide = () => page.evaluate(() => document.documentElement.scrollWidth);
+  assert.ok(await wide() <= 360, `${await wide()}`);
+  await page.click('#view-space');
+  assert.ok(await wide() <= 360);
+  await page.click('#view-plan');
+  mock.state.change('error');
+  await page.waitForSelector('.report.error');
+  assert.ok(await wide() <= 360);
+  const cdp = await page.context().newCDPSession(page);
+  const box = await page.locator('#plan').boundingBox();
+  const [x, y] = [box.x + box.width / 2, box.y + box.height / 2];
+  const touch = (type, ...points) => cdp.send('Input.dispatchTouchEvent', { type,
+    touchPoints: points.map(([px, py], id) => ({ x: px, y: py, id })) });
+  const scale = await page.evaluate(() => partc.plan.viewport.scale);
+  await touch('touchStart', [x - 20, y], [x + 20, y]);
+  for (let k = 1; k <= 5; k++) await touch('touchMove', [x - 20 - 8 * k, y], [x + 20 + 8 * k, y]);
+  await touch('touchEnd');
+  const after1 = await page.evaluate(() => partc.plan.viewport.scale);
+  assert.ok(Math.abs(after1 / scale - 3) < 0.1, `${after1 / scale}`);
+  await page.end();
+});
+
+test('every control is reached by the keyboard and has a name', async () => {
+  const page = await open();
+  const seen = new Set();
+  for (let i = 0; i < 60; i++) {
+    await page.keyboard.press('Tab');
+    seen.add(await page.evaluate(() => document.activeElement.id
+      || document.activeElement.dataset?.side || document.activeElement.tagName));
+  }
+  for (const id of ['machine', 'compare', 'theme', 'help-button', 'view-plan', 'zoom-fit',
+    'measure-button', 'layers-button', 'colour', 'source', 'plan', 'time', 'play', 'play-back',
+    'frame-on', 'pulse-on', 'speed', 'follow', 'tab-text', 'text-list']) {
+    assert.ok(seen.has(id), id);
+  }
+  await page.end();
+});
+
+test('the page says when partc has ended, and goes on when it is back', async () => {
+  const page = await open();
+  const port = Number(new URL(mock.url).port);
+  await mock.stop();
+  await page.waitForFunction(() => /partc has ended/.test(document.getElementById('status')
+    .textContent));
+  const { state } = mock;
+  mock = await start(port);
+  mock.state.version = state.version + 5;
+  await page.waitForFunction((v) => partc.state.connection === 'open'
+    && partc.state.drawing.header.version === v, mock.state.version, { timeout: 10000 });
+  await page.end(/ERR_/);
+});
+
+function summary(list) {
+  const sorted = [...list].sort((a, b) => a - b);
+  return { median: +sorted[sorted.length >> 1].toFixed(2), worst: +sorted.at(-1).toFixed(2) };
+}
+
+async function timed(page, count, f) {
+  return page.evaluate(async ([n, text]) => {
+    const step = new Function('k', 'n', text);
+    const times = [];
+    const gaps = [];
+    let last = performance.now();
+    for (let k = 0; k < n; k++) {
+      step(k, n);
+      times.push(partc.draw());
+      await new Promise((done) => requestAnimationFrame(done));
+      gaps.push(performance.now() - last);
+      last = performance.now();
+    }
+    return { times, gaps };
+  }, [count, f]);
+}
+
+async function big(frames, view) {
+  const page = await open({ bypassCSP: true }, `big${frames}`);
+  await page.selectOption('#machine', 'linuxcnc-mill');
+  await page.waitForFunction(() => partc.state.run?.header.machine === 'linuxcnc-mill', null,
+    { timeout: 20000 });
+  if (view === 'space') await page.click('#view-space');
+  await page.evaluate(() => partc.player.seek(partc.clock.end * 0.3));
+  await page.waitForTimeout(1500);
+  const report = {};
+  const on = 'partc.clock.seek(partc.clock.end * (0.3 + 0.4 * k / n))';
+  const back = 'partc.clock.seek(partc.clock.end * (0.7 - 0.4 * k / n))';
+  const pan = view === 'plan' ? 'partc.plan.panBy(3, 1)' : 'partc.space.panBy(3, 1)';
+  for (const [name, f] of Object.entries({ on, back, pan })) {
+    await timed(page, 5, f.replace(/ k /, ' 0 '));
+    const { times, gaps } = await timed(page, 60, f);
+    report[name] = { script: summary(times), gap: summary(gaps) };
+  }
+  report.heap = Math.round(await page.evaluate(() => performance.memory.usedJSHeapSize / 2 ** 20));
+  console.log(frames, view, JSON.stringify(report));
+  await page.end();
+  return report;
+}
+
+test('100000 frames in plan: less than 50 ms of script for a picture', async () => {
+  const report = await big(100000, 'plan');
+  for (const name of ['on', 'back', 'pan']) assert.ok(report[name].script.worst < 50, name);
+  assert.ok(report.heap < 300);
+});
+
+test('10000 frames in 3D: less than 50 ms of script for a picture', async () => {
+  const report = await big(10000, 'space');
+  for (const name of ['on', 'back', 'pan']) assert.ok(report[name].script.worst < 50, name);
+  assert.ok(report.heap < 300);
+});
