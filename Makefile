@@ -42,7 +42,7 @@ NPM_CI := $(NPM) ci --ignore-scripts --no-audit --no-fund
 banner = @printf '== %s\n' '$(1)'
 quietly = @bash scripts/quietly.sh
 
-.PHONY: mutants preview-test pictures tree-sitter-test editors-test controls-test client-test vsix vscode-test help setup build test check format format-check lint commits bench demo install deb dist deb-try clean
+.PHONY: preview-bench gallery mutants preview-test pictures tree-sitter-test editors-test controls-test client-test vsix vscode-test help setup build test check format format-check lint commits bench demo install deb dist deb-try clean
 
 help: ## this list
 	@printf 'make demo|test|...\n\n'
@@ -102,6 +102,10 @@ pictures: needs-build needs-test ## draw the pictures of the documents anew from
 	$(quietly) $(STACK) build --test --no-run-tests
 	$(call banner,pictures)
 	@PARTC_RECORD=1 $(STACK) --verbosity warn test --test-arguments "--match pictures"
+
+gallery: build ## draw the pictures of docs/gallery.md anew
+	$(call banner,gallery)
+	@bash scripts/gallery.sh "$(PARTC)"
 
 mutants: needs-build needs-test ## put one bug into the code for every law; fail if the law does not notice it
 	$(call banner,mutants)
@@ -184,6 +188,10 @@ preview-test: needs-preview $(if $(shell command -v npm),,needs-vscode) $(if $(f
 	$(quietly) npm --prefix test/browser ci --ignore-scripts --no-audit --no-fund
 	$(call banner,lint and test)
 	@PARTC="$(PARTC)" bash scripts/preview-test.sh
+
+preview-bench: needs-preview build ## measure the preview with large programs, in Chromium
+	$(quietly) npm --prefix test/browser ci --ignore-scripts --no-audit --no-fund
+	@PARTC="$(PARTC)" node test/browser/measure.mjs
 
 clean: ## remove everything that was built
 	@rm -rf .stack-work .stack-work-check .stack-work-bench .stack-work-quick build partc.cabal

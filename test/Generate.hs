@@ -264,6 +264,7 @@ partOf at operation =
       Part.contours = [],
       Part.operations = [operation],
       Part.fittings = [],
+      Part.assertedSizes = [],
       Part.readings = [],
       Part.namedPoints = []
     }

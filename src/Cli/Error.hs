@@ -43,6 +43,10 @@ data Error
     NothingInRange Text Int
   | -- | The tape of this machine is a text, so there is nothing to draw.
     NotPunched Text
+  | -- | No program that converts drawings is installed.
+    NoRenderer
+  | -- | No installed program could convert the drawing: the name of the last one, and what it said.
+    RendererFails Text
   | -- | The command line gives a value to the parameter of this name, but the program is an input
     -- sheet, which has no parameters.
     SheetAssigned Text
@@ -138,6 +142,17 @@ toReport err = case err of
   NotPunched machine ->
     (wrong "E0819" InFile ("the tape of " <> machine <> " is a text, without holes"))
       { hints = ["Leave -o out: then its lines are printed with their meaning."]
+      }
+  NoRenderer ->
+    (wrong "E0820" InFile "no program that makes PNG or PDF of a drawing is installed")
+      { hints =
+          [ "Install rsvg-convert: apt-get install librsvg2-bin. Or take Inkscape or Chromium.",
+            "Or write SVG: give the output a name that ends in .svg."
+          ]
+      }
+  RendererFails why ->
+    (wrong "E0820" InFile ("the drawing could not be converted: " <> why))
+      { hints = ["Write SVG: give the output a name that ends in .svg."]
       }
   CannotListen why ->
     (wrong "E0821" InCommandLine ("the page cannot be served: " <> why))

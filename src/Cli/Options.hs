@@ -11,21 +11,27 @@ module Cli.Options
 where
 
 import Base.Quantity (Mm (..))
+import Cli.OptionReader (assignment, choice, fromTo, portNumber, switchRadius, tickRange)
 import Cli.Output (ColourChoice (..), Format (..), OutputSettings (..))
 import Control.Applicative (many, optional, some, (<|>))
 import Control.Monad (void)
+import Data.List (intercalate)
 import Data.List.NonEmpty (NonEmpty)
 import Data.List.NonEmpty qualified as NonEmpty
 import Data.Maybe (fromMaybe)
 import Data.Text (Text)
 import Data.Text qualified as Text
+import Draw.CutClass (Colouring (..))
+import Draw.LineStyle (Appearance (..))
+import Draw.Page (PageFormat (..))
+import Draw.PlotSettings (PlotSettings (PlotSettings, appearance, colouring))
+import Draw.PlotSettings qualified as PlotSettings
 import Draw.TapeRows (RowRange)
 import Draw.TapeRows qualified as TapeRows
 import Options.Applicative (Parser, ParserInfo)
 import Options.Applicative qualified as Opt
 import Report.Explanation qualified as Explanation
 import Report.Report (ReportCode (..))
-import Text.Read (readMaybe)
 
 -- | A parsed command line.
 data Invocation = Invocation {settings :: OutputSettings, command :: Subcommand}
@@ -53,8 +59,8 @@ data Subcommand
   | -- | the machine, without which the command fails; the tape
     Decode (Maybe Text) FilePath
   | Run RunOptions
-  | -- | the program, the drawing to write
-    Plot FilePath (Maybe FilePath)
+  | -- | the program, the drawing to write, its page and its line styles
+    Plot FilePath (Maybe FilePath) PlotSettings
   | -- | the machine, without which the command fails; the rows to show; the drawing to write, or
     -- nothing for a picture in letters; the tape
     DrawTape (Maybe Text) RowRange (Maybe FilePath) FilePath
@@ -196,7 +202,7 @@ commands =
         "plot"
         "Draw part, path, nodes and cutter as SVG"
         "partc plot flange.part -o flange.svg"
-        (Plot <$> program <*> optional outputFile),
+        (Plot <$> program <*> optional outputFile <*> plotSettings),
       entry
         "preview"
         "Serve a page that follows a program and plays its tape"
@@ -280,10 +286,6 @@ previewOptions =
           )
       )
     <*> (not <$> Opt.switch (Opt.long "no-open" <> Opt.help "Do not open a browser"))
-  where
-    portNumber = Opt.eitherReader $ \word -> case readMaybe word of
-      Just n | n >= 1 && n <= (65535 :: Int) -> Right n
-      _ -> Left ("‘" <> word <> "’ is not a port from 1 to 65535")
 
 runOptions :: Parser RunOptions
 runOptions =
@@ -321,6 +323,36 @@ programOrTape =
         <> Opt.action "file"
     )
 
+-- | The page and the line styles of a plot.
+plotSettings :: Parser PlotSettings
+plotSettings =
+  PlotSettings
+    <$> word
+      (PlotSettings.format PlotSettings.standard)
+      "sheet"
+      "The format of the paper"
+      [("a4", A4), ("a3", A3), ("a2", A2), ("a1", A1), ("a0", A0)]
+    <*> word
+      (colouring PlotSettings.standard)
+      "by"
+      "The property that the line styles of the cutter's path show"
+      [("depth", ByDepth), ("tool", ByTool), ("feed", ByFeed)]
+    <*> word
+      (appearance PlotSettings.standard)
+      "style"
+      "Colours, black and white for a printer, or colours on a dark ground"
+      [("screen", Screen), ("print", Print), ("dark", Dark)]
+  where
+    word usual name description table =
+      Opt.option
+        (choice table)
+        ( Opt.long name
+            <> Opt.value usual
+            <> Opt.metavar (intercalate "|" (map fst table))
+            <> Opt.help description
+            <> Opt.completeWith (map fst table)
+        )
+
 -- | The form in which a run is written.
 runFormOption :: Parser RunForm
 runFormOption =
@@ -347,26 +379,6 @@ runFormOption =
             <*> optional outputFile
         )
     <|> pure RunAsTable
-
--- | Reads a range of ticks that is short enough for one page.
-tickRange :: Opt.ReadM (Int, Int)
-tickRange = do
-  (a, b) <- rangeFrom 0
-  if a < b && b - a <= most
-    then pure (a, b)
-    else
-      Opt.readerError
-        ("a timeline ends after its first tick, and at most " <> show most <> " ticks later")
-  where
-    most = 5000 :: Int
-
--- | The number of a switch, and the radius in mm at it: @1=5.02@.
-switchRadius :: Opt.ReadM (Int, Mm)
-switchRadius = Opt.maybeReader $ \text -> case break (== '=') text of
-  (n, '=' : radius) -> (,) <$> readMaybe n <*> (readMaybe radius >>= positive)
-  _ -> Nothing
-  where
-    positive r = if r >= 0 && r < 1e6 then Just (Mm r) else Nothing
 
 jsonFlag :: Parser Bool
 jsonFlag = Opt.switch (Opt.long "json" <> Opt.help "One JSON object a line")
@@ -453,20 +465,6 @@ rangeOption =
         )
     <|> pure TapeRows.Everything
 
--- | Reads a range of numbers that count from 1, for example @3..8@; @3@ means @3..3@. The result
--- is the first and the last number of the range.
-fromTo :: Opt.ReadM (Int, Int)
-fromTo = rangeFrom 1
-
--- | Reads a range of numbers that count from @least@.
-rangeFrom :: Int -> Opt.ReadM (Int, Int)
-rangeFrom least =
-  Opt.eitherReader $ \word ->
-    case traverse (readMaybe . Text.unpack) (Text.splitOn ".." (Text.pack word)) of
-      Just [a] | a >= least -> Right (a, a)
-      Just [a, b] | least <= a, a <= b -> Right (a, b)
-      _ -> Left ("‘" <> word <> "’ is not a range such as 3..8")
-
 outputFile :: Parser FilePath
 outputFile = outputOption "The file to write; - for standard output"
 
@@ -526,24 +524,6 @@ overrides =
               <> Opt.help "Give a parameter of the program another value"
           )
       )
-
--- | Reads one of the words in @table@, and gives the value beside it. Any other word is an error;
--- its message lists the words of the table.
-choice :: [(String, a)] -> Opt.ReadM a
-choice table = Opt.eitherReader $ \word ->
-  maybe
-    (Left ("‘" <> word <> "’ is none of: " <> unwords (map fst table)))
-    Right
-    (lookup word table)
-
--- | Reads a parameter's name and its value, as in @d=25 mm@. The value is not parsed here.
-assignment :: Opt.ReadM (Text, Text)
-assignment = Opt.eitherReader $ \word -> case Text.breakOn "=" (Text.pack word) of
-  (name, rest)
-    | not (Text.null name),
-      not (Text.null rest) ->
-      Right (Text.strip name, Text.drop 1 rest)
-  _ -> Left ("‘" <> word <> "’ is not NAME=VALUE")
 
 -- | Joins the settings written after the subcommand (@later@) with those written before it
 -- (@earlier@). If both have a format or a choice of colour, that of @later@ is taken. All

@@ -7,6 +7,7 @@ module Cli.OutputFile
     tapeNames,
     numbered,
     writeText,
+    writeBytes,
   )
 where
 
@@ -132,9 +133,14 @@ writeAll reporter files = case files of
 -- the program's name in reports. @sources@ are the files that must not be replaced.
 writeText :: Reporter -> Text -> [FilePath] -> Maybe FilePath -> Text -> IO Exit
 writeText reporter name sources wanted text = case wanted of
-  Just path | path /= "-" -> do
-    clash <- overwritten sources [path]
-    case clash of
-      Just same -> failWith reporter name (OverwritesProgram (Text.pack same))
-      Nothing -> writeAll reporter [(path, Encoding.encodeUtf8 text)]
+  Just path | path /= "-" -> writeBytes reporter name sources path (Encoding.encodeUtf8 text)
   _ -> printResult reporter text
+
+-- | Writes bytes to a file. @name@ is the program's name in reports. @sources@ are the files that
+-- must not be replaced.
+writeBytes :: Reporter -> Text -> [FilePath] -> FilePath -> ByteString -> IO Exit
+writeBytes reporter name sources path bytes = do
+  clash <- overwritten sources [path]
+  case clash of
+    Just same -> failWith reporter name (OverwritesProgram (Text.pack same))
+    Nothing -> writeAll reporter [(path, bytes)]

@@ -11,6 +11,7 @@ import Base.PulseVector (Pulses3)
 import Base.Quantity (Mm)
 import Base.Region (Source)
 import Base.Region qualified as Region
+import Cli.DrawingFile (writeDrawing)
 import Cli.Error (Error (..))
 import Cli.Error qualified as Cli
 import Cli.GcodeFile qualified as GcodeFile
@@ -25,7 +26,6 @@ import Cli.Options (RunForm (..), RunOptions (..))
 import Cli.Outcome (exitAfterWriting, failWith, whenSound)
 import Cli.Output (Exit (..), Reporter)
 import Cli.Output qualified as Output
-import Cli.OutputFile (writeText)
 import Cli.RunTable qualified as RunTable
 import Cli.TapeDifference qualified as TapeDifference
 import Cli.TapeInput (onFirstMachine, withTapeFile)
@@ -202,7 +202,7 @@ speedPicture reporter subject output (columns, why)
     -- A run that stops at a fault gives no picture.
     exit <- afterStop reporter subject why
     if exit == Done
-      then writeText reporter (tapeName subject) (sources subject) output picture
+      then writeDrawing reporter (tapeName subject) (sources subject) output picture
       else pure exit
   where
     picture = SpeedPlot.plot (machine subject) axes (clockOf subject) (shortName subject) columns
@@ -231,7 +231,7 @@ timelinePicture ::
 timelinePicture reporter subject output range control pulses =
   case JobTimeline.collect (machine subject) control range pulses of
     Just timeline ->
-      writeText
+      writeDrawing
         reporter
         (tapeName subject)
         (sources subject)

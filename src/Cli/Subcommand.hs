@@ -11,6 +11,7 @@ import Base.Quantity (LengthUnit)
 import Base.Region qualified as Region
 import Base.Result (Result (..))
 import Base.Result qualified as Result
+import Cli.DrawingFile (writeDrawing)
 import Cli.Error (Error (..), Warning (..))
 import Cli.Error qualified as Cli
 import Cli.FixCommand qualified as FixCommand
@@ -56,6 +57,7 @@ import Data.Text (Text)
 import Data.Text qualified as Text
 import Data.Text.Encoding qualified as Encoding
 import Draw.Plot qualified as Plot
+import Draw.PlotSettings (PlotSettings)
 import Draw.TapeRows qualified as TapeRows
 import Draw.TapeSheet qualified as TapeSheet
 import Frame.Frame (Frame)
@@ -108,7 +110,7 @@ perform reporter command = case command of
   ExportSheet file output -> exportSheet reporter file output
   Decode target tape -> decode reporter target tape
   Run options -> RunCommand.run reporter options
-  Plot file output -> plot reporter file output
+  Plot file output chosen -> plot reporter file output chosen
   Preview options -> PreviewCommand.preview reporter options
   Machines name asText -> machines reporter name asText
   DrawTape target range Nothing tape -> drawTape reporter target range tape
@@ -351,15 +353,15 @@ report reporter file target = withInput reporter file (maybeToList target) $ \gi
       Nothing -> Job.forOwnMachine (values given) (loaded given)
 
 -- | Writes the drawing of a program.
-plot :: Reporter -> FilePath -> Maybe FilePath -> IO Exit
-plot reporter file wanted = withInput reporter file [] $ \given ->
+plot :: Reporter -> FilePath -> Maybe FilePath -> PlotSettings -> IO Exit
+plot reporter file wanted chosen = withInput reporter file [] $ \given ->
   settled reporter given (Compile.analyse (values given) (loaded given)) $ \analysis ->
-    writeText
+    writeDrawing
       reporter
       (displayName file)
       (ownFiles file given)
       wanted
-      (Plot.plot (Compile.part analysis) (Compile.path analysis))
+      (Plot.plot chosen (Compile.part analysis) (Compile.path analysis))
 
 -- | Calls 'whenSound' with the name and the source of the program @given@: writes the reports of
 -- the result, and continues with its output if no report stops the command.
@@ -442,7 +444,8 @@ drawSheet reporter target range path tapeFile =
             title = Text.pack (takeFileName (Text.unpack (displayName tapeFile)))
         case TapeSheet.sheet machine title (TapeRows.chosen range numbered) of
           Nothing -> failWith reporter (displayName tapeFile) (NothingInRange counted count)
-          Just drawing -> writeText reporter (displayName tapeFile) [tapeFile] (Just path) drawing
+          Just drawing ->
+            writeDrawing reporter (displayName tapeFile) [tapeFile] (Just path) drawing
   where
     nameOf machine = let MachineName n = Machine.name machine in n
 

@@ -16,6 +16,7 @@ import Data.Map.Strict qualified as Map
 import Data.Maybe (catMaybes)
 import Data.Text (Text)
 import Draw.Page (Area, holds)
+import Draw.Svg (TextStyle)
 import Draw.Svg qualified as Draw
 import Geometry.Distance (ClosestPoint (..))
 import Geometry.Distance qualified as Distance
@@ -35,22 +36,23 @@ data PointLabel = PointLabel
     -- | preferred direction from the point to the label; a unit vector
     outward :: Vec,
     -- | allowed distances from the point to the edge of the label in mm, the preferred one first
-    distances :: [Double]
+    distances :: [Double],
+    letters :: TextStyle
   }
   deriving stock (Eq, Show)
 
--- | Letter size of the labels in mm, as the font size of SVG.
+-- | Letter size of the numbers of nodes in mm, as the font size of SVG.
 size :: Double
 size = 3
 
--- | Centre, in mm of paper, and text of each placed label. Labels are placed in @area@, in the
--- given order, so that they do not cover the segments @drawn@. A label without a free position is
--- left out.
-place :: Area -> BoxTree Segment -> [PointLabel] -> [(Point, Text)]
+-- | Placed labels, each with its centre in mm of paper. Labels are placed in @area@, in the given
+-- order, so that they do not cover the segments @drawn@. A label without a free position is left
+-- out.
+place :: Area -> BoxTree Segment -> [PointLabel] -> [(Point, PointLabel)]
 place area drawn = catMaybes . snd . List.mapAccumL next Map.empty
   where
     next taken label = case find (free area drawn taken) (candidates label) of
-      Just box -> (occupied box taken, Just (middleOf box, caption label))
+      Just box -> (occupied box taken, Just (middleOf box, label))
       Nothing -> (taken, Nothing)
 
 -- | Centre of a bounding box.
@@ -77,12 +79,13 @@ squares BoundingBox {left, bottom, right, top} =
 
 -- | Bounding boxes of a label at its candidate positions, the preferred one first.
 candidates :: PointLabel -> [BoundingBox]
-candidates PointLabel {caption, anchor, outward, distances} = [at d a | d <- distances, a <- angles]
+candidates PointLabel {caption, anchor, outward, distances, letters} =
+  [at d a | d <- distances, a <- angles]
   where
     -- Half the height and half the width of the label. The height of a digit is 0.72 of the letter
     -- size.
-    high = 0.36 * size
-    wide = max high (Draw.textWidth size caption / 2)
+    high = 0.36 * Draw.size letters
+    wide = max high (Draw.textWidth (Draw.size letters) caption / 2)
     at distance angle =
       let direction = Vec.rotate angle outward
           -- Distance from the centre of the label to its edge, along the direction to the point.

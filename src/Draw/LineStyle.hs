@@ -3,20 +3,14 @@ module Draw.LineStyle
   ( black,
     blue,
     red,
-    materialColour,
-    restColour,
-    contourPen,
-    edgePen,
-    bedPen,
-    pathPen,
-    feedPen,
-    rapidPen,
-    framePen,
     axisPen,
-    mirrorPen,
-    spindlePen,
-    sweptPen,
     small,
+    Appearance (..),
+    LineStyles (..),
+    lineStyles,
+    hatchings,
+    classPen,
+    lettering,
     arrowAt,
     arrowOn,
     axisArrow,
@@ -26,11 +20,14 @@ module Draw.LineStyle
     cross,
     start,
     diamond,
+    centreMark,
+    descent,
   )
 where
 
 import Base.Quantity (Mm (..))
 import Data.Text (Text)
+import Draw.Descent (DescentKind (..))
 import Draw.Svg (Pen (..), Svg, TextStyle (..))
 import Draw.Svg qualified as Svg
 import Geometry.Carrier (Sense (..))
@@ -46,40 +43,146 @@ grey = "#909090"
 blue = "#0b3d91"
 red = "#a01818"
 
--- | Pens of the drawing. If the cutter's centre moves on the contour itself, the contour is drawn
--- as two thin lines: the white 'bedPen' is drawn over the wider black 'edgePen'. The 'pathPen' is
--- drawn between the two lines.
-contourPen, edgePen, bedPen, pathPen, feedPen, rapidPen, cutterPen, framePen :: Pen
-contourPen = Pen black 0.6 []
-edgePen = Pen black 1.3 []
-bedPen = Pen "white" 0.9 []
-pathPen = Pen blue 0.25 []
-feedPen = Pen red 0.2 [4, 0.8]
-rapidPen = Pen red 0.2 [1.4, 1.2]
-cutterPen = Pen black 0.2 []
-framePen = Pen black 0.35 []
-
--- | Pens of the axes of the part, of the other half of a turned part, and of the spindle's axis.
-axisPen, mirrorPen, spindlePen :: Pen
+-- | Pen of the axes.
+axisPen :: Pen
 axisPen = Pen grey 0.13 []
-mirrorPen = Pen grey 0.35 []
-spindlePen = Pen black 0.2 [8, 1.2, 1.2, 1.2]
-
--- | Pen of the area over which a cutter with a radius in mm of paper sweeps.
-sweptPen :: Double -> Pen
-sweptPen radius = Pen "#dfe8f7" (2 * radius) []
-
--- | Grey of the material.
-materialColour :: Text
-materialColour = "#e4e4e4"
-
--- | Colour of rest material.
-restColour :: Text
-restColour = "#f0a090"
 
 -- | Style of small letters, for coordinates and the legend.
 small :: TextStyle
 small = TextStyle {size = 2.5, ink = black, bold = False}
+
+-- | Appearance of a plot.
+data Appearance
+  = -- | colours on white
+    Screen
+  | -- | black on white, with hatching in place of colours
+    Print
+  | -- | colours on a dark ground
+    Dark
+  deriving stock (Eq, Show, Enum, Bounded)
+
+-- | Colours and pens of a plot. A colour may also be a hatching.
+data LineStyles = LineStyles
+  { background :: Text,
+    -- | letters, symbols and borders
+    inkColour :: Text,
+    materialColour :: Text,
+    -- | the area over which a cutter sweeps
+    sweptColour :: Text,
+    restColour :: Text,
+    -- | letters at rest material
+    reasonColour :: Text,
+    -- | nodes and arrows of the cutter's path
+    pathColour :: Text,
+    -- | arrows and symbols of linking moves
+    linkingColour :: Text,
+    contourPen :: Pen,
+    -- | If the cutter's centre moves on the contour itself, the contour is drawn as two thin lines:
+    -- the 'bedPen' in the colour of the paper over the wider 'edgePen'. The 'pathPen' is drawn
+    -- between the two lines.
+    edgePen :: Pen,
+    bedPen :: Pen,
+    pathPen :: Pen,
+    feedPen :: Pen,
+    rapidPen :: Pen,
+    cutterPen :: Pen,
+    framePen :: Pen,
+    -- | axes of the part
+    coordinatePen :: Pen,
+    -- | the other half of a turned part
+    mirrorPen :: Pen,
+    -- | axis of the spindle, and centres of holes
+    spindlePen :: Pen,
+    restPen :: Pen,
+    -- | True if labels need a ground in the colour of the paper, because areas are hatched
+    labelsHaveGround :: Bool,
+    -- | colours of the classes of cuts
+    classColours :: [Text]
+  }
+
+-- | Line styles of an appearance. The classes have the colours of Okabe and Ito, which people with
+-- any kind of colour vision can tell apart.
+lineStyles :: Appearance -> LineStyles
+lineStyles appearance = case appearance of
+  Screen ->
+    (inColours "white" black blue red)
+      { materialColour = "#e4e4e4",
+        sweptColour = "#dfe8f7",
+        restColour = "#e8604c",
+        classColours = ["#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9"]
+      }
+  Dark ->
+    (inColours "#14181d" "#e8e8e8" "#7cb8f5" "#ff8c7a")
+      { materialColour = "#2b3138",
+        sweptColour = "#1d3450",
+        restColour = "#c2402c",
+        classColours = ["#56b4e9", "#ff7f2a", "#2fd0a0", "#f2a3cf", "#f0e442", "#ffffff"]
+      }
+  Print ->
+    (inColours "white" black black black)
+      { materialColour = "white",
+        sweptColour = "url(#swept-hatching)",
+        restColour = "url(#rest-hatching)",
+        contourPen = Pen black 0.7 [],
+        coordinatePen = Pen black 0.1 [],
+        mirrorPen = Pen black 0.35 [],
+        labelsHaveGround = True,
+        classColours = [black]
+      }
+
+-- | Line styles without tints, from the colours of the paper, the letters, the path and the linking
+-- moves.
+inColours :: Text -> Text -> Text -> Text -> LineStyles
+inColours paper ink path linking =
+  LineStyles
+    { background = paper,
+      inkColour = ink,
+      materialColour = paper,
+      sweptColour = paper,
+      restColour = linking,
+      reasonColour = linking,
+      pathColour = path,
+      linkingColour = linking,
+      contourPen = Pen ink 0.6 [],
+      edgePen = Pen ink 1.3 [],
+      bedPen = Pen paper 0.9 [],
+      pathPen = Pen path 0.25 [],
+      feedPen = Pen linking 0.2 [4, 0.8],
+      rapidPen = Pen linking 0.2 [1.4, 1.2],
+      cutterPen = Pen ink 0.2 [],
+      framePen = Pen ink 0.35 [],
+      coordinatePen = axisPen,
+      mirrorPen = Pen grey 0.35 [],
+      spindlePen = Pen ink 0.2 [8, 1.2, 1.2, 1.2],
+      restPen = Pen linking 0.15 [],
+      labelsHaveGround = False,
+      classColours = []
+    }
+
+-- | Hatchings that an appearance uses.
+hatchings :: Appearance -> [Svg]
+hatchings appearance = case appearance of
+  Screen -> []
+  Dark -> []
+  Print ->
+    [ Svg.hatch "swept-hatching" (Pen black 0.08 []) 2.2 (-45),
+      Svg.hatch "rest-hatching" (Pen black 0.2 []) 0.6 45
+    ]
+
+-- | Pen of the class of cuts with a number from 0. Its dashes distinguish it from other classes
+-- without colour.
+classPen :: LineStyles -> Int -> Pen
+classPen styles i = Pen (pick i (classColours styles)) 0.3 (pick (i + i `div` count) dashes)
+  where
+    count = length dashes
+    pick k list = case drop (k `mod` max 1 (length list)) list of
+      x : _ -> x
+      [] -> mempty
+    dashes = [[], [4, 1], [1, 0.8], [6, 1, 1, 1], [2, 1], [6, 0.8, 0.8, 0.8, 0.8, 0.8]]
+
+-- | Style of letters of a size in mm.
+lettering :: LineStyles -> Double -> TextStyle
+lettering styles size = TextStyle {size, ink = inkColour styles, bold = False}
 
 -- | Arrowhead of the given colour on a segment. Its tip is at @fraction@ of the segment's length, 0
 -- at the start and 1 at the end. The segment must have a positive length.
@@ -97,28 +200,34 @@ arrowOn colour fraction s
     Mm room = Segment.length s
 
 -- | Arrowhead of a coordinate axis, by its direction (a unit vector) and its tip.
-axisArrow :: Vec -> Point -> Svg
-axisArrow = Svg.arrow grey 2.4
+axisArrow :: LineStyles -> Vec -> Point -> Svg
+axisArrow styles = Svg.arrow (colour (coordinatePen styles)) 2.4
 
 -- | Dot of a node; a larger one if @numbered@, that is, if the drawing shows the node's number.
-node :: Bool -> Point -> Svg
-node numbered = Svg.dot blue (if numbered then 0.6 else 0.35)
+node :: LineStyles -> Bool -> Point -> Svg
+node styles numbered = Svg.dot (pathColour styles) (if numbered then 0.6 else 0.35)
 
 -- | Symbol of the part's origin, the workpiece zero: a circle with two black quarters.
-origin :: Point -> [Svg]
-origin p = [Svg.dot "white" r p, quarter 0, quarter pi, Svg.ring (Pen black 0.2 []) r p]
+origin :: LineStyles -> Point -> [Svg]
+origin styles p =
+  [ Svg.dot (background styles) r p,
+    quarter 0,
+    quarter pi,
+    Svg.ring (cutterPen styles) r p
+  ]
   where
     r = 1.5
     rim a = Vec.shift (Vec.vec (r * cos a) (r * sin a)) p
     quarter a =
       let (from, to) = (rim a, rim (a - pi / 2))
-       in Svg.area black [Straight p from, Segment.arc Clockwise p from to]
+       in Svg.area (inkColour styles) [Straight p from, Segment.arc Clockwise p from to]
 
 -- | Circle of a cutter about @p@, and the cross at its centre; @radius@ is in mm of paper.
-cutter :: Double -> Point -> [Svg]
-cutter radius p = Svg.ring cutterPen radius p : map bar (cross radius p)
-  where
-    bar s = Svg.stroke cutterPen [s]
+cutter :: LineStyles -> Double -> Point -> [Svg]
+cutter styles radius p =
+  [ Svg.ring (cutterPen styles) radius p,
+    Svg.strokes (cutterPen styles) (map pure (cross radius p))
+  ]
 
 -- | Two lines of the cross at the centre @p@ of a cutter. @radius@ is the cutter's radius in mm of
 -- paper.
@@ -129,8 +238,11 @@ cross radius p = [bar (Vec.vec arm 0), bar (Vec.vec 0 arm)]
     bar v = Straight (Vec.shift (Vec.negate v) p) (Vec.shift v p)
 
 -- | Symbol of the start position of the cutter: a white diamond.
-start :: Point -> [Svg]
-start p = [Svg.area "white" (diamond p), Svg.loop (Pen black 0.25 []) (diamond p)]
+start :: LineStyles -> Point -> [Svg]
+start styles p =
+  [ Svg.area (background styles) (diamond p),
+    Svg.loop (cutterPen styles) {width = 0.25} (diamond p)
+  ]
 
 -- | Edges of the symbol of the start position.
 diamond :: Point -> [Segment]
@@ -138,3 +250,24 @@ diamond p = zipWith Straight corners (drop 1 corners <> take 1 corners)
   where
     corners =
       [Vec.shift v p | v <- [Vec.vec 2.6 0, Vec.vec 0 2.6, Vec.vec (-2.6) 0, Vec.vec 0 (-2.6)]]
+
+-- | Lines that mark the centre of a hole; @radius@ is the radius of the hole in mm of paper. They
+-- lead beyond the hole.
+centreMark :: Double -> Point -> [Segment]
+centreMark radius p = [bar (Vec.vec arm 0), bar (Vec.vec 0 arm)]
+  where
+    arm = radius + 1.5
+    bar v = Straight (Vec.shift (Vec.negate v) p) (Vec.shift v p)
+
+-- | Symbol of a descent: a triangle that points down for a plunge, a wedge for a ramp, and a ring
+-- about a dot for a helix.
+descent :: LineStyles -> DescentKind -> Point -> [Svg]
+descent styles kind p = case kind of
+  Plunge -> [filled [(-1.1, -1.9), (1.1, -1.9), (0, 0)]]
+  Ramp -> [filled [(-2.8, -1.6), (0, 0), (-2.8, 0)]]
+  Helix -> [Svg.ring (Pen colour 0.25 []) 1.3 p, Svg.dot colour 0.4 p]
+  where
+    colour = linkingColour styles
+    filled corners =
+      let points = [Vec.shift (Vec.vec x y) p | (x, y) <- corners]
+       in Svg.area colour (zipWith Straight points (drop 1 points))

@@ -13,11 +13,14 @@ import Base.Quantity (Mm (..), total)
 import Data.List.NonEmpty (NonEmpty (..))
 import Data.List.NonEmpty qualified as NonEmpty
 import Draw.Label (PointLabel (PointLabel))
+import Draw.Label qualified as Label
+import Draw.LineStyle (LineStyles)
 import Draw.LineStyle qualified as LineStyle
 import Draw.Page qualified as Page
 import Draw.Scene (Cut (..))
 import Draw.Scene qualified as Scene
 import Draw.Svg (Svg)
+import Draw.Svg qualified as Svg
 import Geometry.Segment (Segment)
 import Geometry.Segment qualified as Segment
 import Geometry.Vec (Point, Vec)
@@ -72,41 +75,55 @@ outwardAt away arriving leaving
 
 -- | Dots of the nodes. If the nodes are closer than 1.5 mm of paper on average, only a node whose
 -- number is shown has a dot.
-dots :: Cut -> [Svg]
-dots cut = [LineStyle.node (marked n) (place n) | n <- NonEmpty.toList numbered, marked n || roomy]
+dots :: LineStyles -> Cut -> [Svg]
+dots styles cut =
+  [LineStyle.node styles isMarked (place n) | (n, isMarked) <- marked cut, isMarked || roomy]
   where
-    numbered = nodes cut
-    marked n = isMarked (NonEmpty.length (sections cut)) n
     Mm whole = total (map Segment.length (NonEmpty.toList (Scene.lines cut)))
-    roomy = whole / fromIntegral (NonEmpty.length numbered) > 1.5
+    roomy = whole / fromIntegral (NonEmpty.length (sections cut) + 1) > 1.5
 
 -- | Labels with the numbers of the nodes. The last node of a closed cut is the entry, and has only
 -- the label 0 of the entry.
-labels :: Cut -> [PointLabel]
-labels cut
+labels :: LineStyles -> Cut -> [PointLabel]
+labels styles cut
   | Vec.isNear (place first) (place final) = entry "0" first : map plain between
   | otherwise = entry "0" first : plain final : map plain between
   where
     numbered = nodes cut
     first = NonEmpty.head numbered
     final = NonEmpty.last numbered
-    between = filter (isMarked (number final)) (drop 1 (NonEmpty.init numbered))
-    plain n = PointLabel (Decimal.whole (number n)) (place n) (outward n) near
+    between = [n | (n, True) <- marked cut, number n > 0, number n < number final]
+    plain n = PointLabel (Decimal.whole (number n)) (place n) (outward n) near letters
     -- The label of the entry may be further away, because the cutter is drawn at the entry.
-    entry words' n = PointLabel words' (place n) (outward n) (near <> [5.5, 7.5, 10])
+    entry words' n = PointLabel words' (place n) (outward n) (near <> [5.5, 7.5, 10]) letters
     near = [1.2, 2, 3, 4]
+    letters = (LineStyle.lettering styles Label.size) {Svg.ink = LineStyle.pathColour styles}
 
--- | True if a node has a label; @final@ is the number of the last node. Both ends of the cut have
--- labels. If @final@ exceeds 'most', a node between them has a label only if its number is a
--- multiple of @every@. This is the smallest of 2, 5, 10, 20 and so on that has at most 'most'
--- multiples from 1 to @final@.
-isMarked :: Int -> Node -> Bool
-isMarked final n = number n `mod` every == 0 || number n == final
+-- | Nodes of a cut, each with True if it has a label. Both ends of the cut have labels. A node
+-- between them has one if it is at least 'apart' away from the node with a label before it and from
+-- the end. If there are more than 'most' nodes, the number of such a node is also a multiple of the
+-- smallest of 2, 5, 10, 20 and so on that has at most 'most' multiples among the numbers.
+marked :: Cut -> [(Node, Bool)]
+marked cut = (first, True) : go first more
   where
+    first :| more = nodes cut
+    final = NonEmpty.last (nodes cut)
+    go before rest = case rest of
+      [] -> []
+      n : others
+        | number n == number final -> (n, True) : go n others
+        | number n `mod` every == 0 && isApart before n && isApart final n ->
+          (n, True) : go n others
+        | otherwise -> (n, False) : go before others
+    isApart a b = let Mm d = Vec.distance (place a) (place b) in d >= apart
     every =
-      if final <= most
+      if number final <= most
         then 1
-        else round (1 / Page.round125 (fromIntegral most / fromIntegral final)) :: Int
+        else round (1 / Page.round125 (fromIntegral most / fromIntegral (number final))) :: Int
+
+-- | Least distance between nodes with labels, in mm of paper: the height of a digit and a gap.
+apart :: Double
+apart = 3.5
 
 -- | Greatest legible count of node numbers on one cut. If a drawing has more numbered cuts than
 -- this, the cuts that are no larger than a digit get no numbers.

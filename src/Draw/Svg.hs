@@ -8,9 +8,13 @@ module Draw.Svg
     layer,
     Pen (..),
     stroke,
+    strokes,
     swept,
     loop,
+    outlines,
     area,
+    areas,
+    hatch,
     rectangle,
     dot,
     dots,
@@ -31,6 +35,7 @@ import Data.Text (Text)
 import Data.Text qualified as Text
 import Data.Text.Lazy qualified as Lazy
 import Draw.Page (Area (..))
+import Geometry.Polyarc (Ends (..))
 import Geometry.Segment (Segment (..))
 import Geometry.Segment qualified as Segment
 import Geometry.Vec (Point, Vec)
@@ -73,26 +78,56 @@ data Pen = Pen {colour :: Text, width :: Double, dashes :: [Double]}
 
 -- | Open polyarc, drawn with a pen. Each segment begins where the previous one ends.
 stroke :: Pen -> [Segment] -> Svg
-stroke pen segments =
-  Svg.path ! Attribute.d (toValue (pathData segments)) ! Attribute.fill "none" ! drawnWith pen
+stroke pen segments = strokes pen [segments]
 
--- | Open polyarc, drawn with a pen whose ends are round: the area over which a circle sweeps.
-swept :: Pen -> [Segment] -> Svg
-swept pen segments = stroke pen segments ! Attribute.strokeLinecap "round"
+-- | Open polyarcs, drawn with a pen as one element of the file.
+strokes :: Pen -> [[Segment]] -> Svg
+strokes pen chains =
+  Svg.path ! Attribute.d (toValue (chainData chains)) ! Attribute.fill "none" ! drawnWith pen
+
+-- | Open polyarcs, drawn with a pen whose ends are round: the area over which a circle sweeps.
+swept :: Pen -> [[Segment]] -> Svg
+swept pen chains = strokes pen chains ! Attribute.strokeLinecap "round"
 
 -- | Closed polyarc, drawn with a pen.
 loop :: Pen -> [Segment] -> Svg
-loop pen segments =
+loop pen segments = outlines pen [(Closed, segments)]
+
+-- | Open and closed polyarcs, drawn with a pen as one element of the file.
+outlines :: Pen -> [(Ends, [Segment])] -> Svg
+outlines pen chains =
   Svg.path
-    ! Attribute.d (toValue (pathData segments <> "Z"))
+    ! Attribute.d (toValue (Text.concat (concatMap chain chains)))
     ! Attribute.fill "none"
     ! drawnWith pen
+  where
+    chain (ends, segments) = pathData segments <> ["Z" | ends == Closed]
 
 -- | Area that segments enclose, filled with a colour. The last segment need not end where the first
 -- one begins.
 area :: Text -> [Segment] -> Svg
-area colour segments =
-  Svg.path ! Attribute.d (toValue (pathData segments <> "Z")) ! Attribute.fill (toValue colour)
+area colour segments = areas colour [segments]
+
+-- | Areas of a colour, as one element of the file.
+areas :: Text -> [[Segment]] -> Svg
+areas colour chains =
+  Svg.path
+    ! Attribute.d (toValue (Text.concat (concatMap (\c -> pathData c <> ["Z"]) chains)))
+    ! Attribute.fill (toValue colour)
+
+-- | Definition of a hatching: parallel lines of a pen, at a distance in mm and at an angle in
+-- degrees. As a colour it is written @url(#name)@.
+hatch :: Text -> Pen -> Double -> Double -> Svg
+hatch name pen distance angle =
+  Svg.defs $
+    ( Svg.pattern
+        ! Attribute.id_ (toValue name)
+        ! Attribute.width (number distance)
+        ! Attribute.height (number distance)
+        ! Attribute.patternunits "userSpaceOnUse"
+        ! Attribute.patterntransform (toValue ("rotate(" <> decimal angle <> ")"))
+    )
+      (stroke pen [Straight (Vec.point 0 (distance / 2)) (Vec.point distance (distance / 2))])
 
 -- | Rectangle, drawn with a pen and filled with a colour.
 rectangle :: Pen -> Text -> Area -> Svg
@@ -114,11 +149,13 @@ dot colour radius p = circle radius p ! Attribute.fill (toValue colour)
 dots :: Text -> Double -> [Point] -> Svg
 dots colour diameter points =
   Svg.path
-    ! Attribute.d (toValue (Text.concat ["M" <> pair p <> "h0" | p <- points]))
+    ! Attribute.d (toValue (Text.concat ["M" <> exactly p <> "h0" | p <- points]))
     ! Attribute.fill "none"
     ! Attribute.stroke (toValue colour)
     ! Attribute.strokeWidth (number diameter)
     ! Attribute.strokeLinecap "round"
+  where
+    exactly p = decimal (Vec.x p) <> " " <> decimal (Vec.y p)
 
 -- | Circle about point @p@, drawn with a pen; @radius@ in mm.
 ring :: Pen -> Double -> Point -> Svg
@@ -195,29 +232,82 @@ drawnWith Pen {colour, width, dashes} =
       [] -> mempty
       _ -> Attribute.strokeDasharray (numbers dashes)
 
+-- | Path data of open polyarcs. A polyarc that begins where the one before it ends continues it.
+chainData :: [[Segment]] -> Text
+chainData chains =
+  Text.concat (concat (zipWith continued (Nothing : map Just chains) chains))
+  where
+    continued before chain = case (before, chain) of
+      (Just (_ : _), first : _)
+        | Just previous <- before,
+          hundredths (Segment.end (last previous)) == hundredths (Segment.start first) ->
+          drop 1 (pathData chain)
+      _ -> pathData chain
+
 -- | Path data of an open polyarc: a command that moves to its beginning, then commands for each
--- line and arc.
-pathData :: [Segment] -> Text
+-- line and arc. A line is left out if both its ends are the same point on paper.
+pathData :: [Segment] -> [Text]
 pathData segments = case segments of
-  [] -> ""
-  first : _ -> Text.concat ("M" : pair (Segment.start first) : concatMap pathCommands segments)
+  [] -> []
+  first : _ -> case concatMap pathCommands segments of
+    [] -> [begin first, "h0"]
+    commands -> begin first : commands
+  where
+    begin s = "M" <> pair (Segment.start s)
 
 -- | Path commands of one segment.
 pathCommands :: Segment -> [Text]
 pathCommands s = case s of
-  Straight _ b -> ["L", pair b]
-  Arc {start, centre, sweep = Rad a} ->
-    let Mm r = Segment.radius centre start
-        -- SVG gives an arc by its ends, here rounded to four decimals. The rounding makes the
-        -- centre of a long arc inexact, and the ends of a full circle do not determine its centre.
-        -- So the arc is divided into parts of at most a third of a circle.
-        pieces = max 1 (ceiling (abs a * 3 / (2 * pi) - 1e-9)) :: Int
-        sense = if a > 0 then "1 " else "0 "
-        to i = Segment.at (fromIntegral i / fromIntegral pieces) s
-     in concat [["A", decimal r, " ", decimal r, " 0 0 ", sense, pair (to i)] | i <- [1 .. pieces]]
+  Straight a b -> ["L" <> pair b | hundredths a /= hundredths b]
+  Arc {start, centre, sweep = Rad a}
+    | abs a > 2 * pi - 1e-9 -> wholeCircle start centre (a > 0)
+    | otherwise ->
+      let Mm r = Segment.radius centre start
+          -- SVG gives an arc by its ends, here rounded to two decimals. The rounding makes the
+          -- centre of a long arc inexact. So the arc is divided into parts of at most a third of a
+          -- circle.
+          pieces = max 1 (ceiling (abs a * 3 / (2 * pi) - 1e-9)) :: Int
+          sense = if a > 0 then "1 " else "0 "
+          to i = Segment.at (fromIntegral i / fromIntegral pieces) s
+       in [ Text.concat ["A", rounded r, " ", rounded r, " 0 0 ", sense, pair (to i)]
+            | i <- [1 .. pieces]
+          ]
+  where
+    rounded = Decimal.short 3
+
+-- | Path commands of a circle from a point on it: two half circles. Their radius is half of the
+-- rounded distance between their ends, so the centre is in the middle of this distance.
+wholeCircle :: Point -> Point -> Bool -> [Text]
+wholeCircle start centre isClockwise = [half (x, y), half (negate x, negate y)]
+  where
+    (x, y) = hundredths (Vec.shift (Vec.scale 2 (Vec.to start centre)) (Vec.point 0 0))
+    r = Decimal.short 3 (sqrt (fromIntegral (x * x + y * y)) / 200)
+    half (dx, dy) =
+      Text.concat ["a", r, " ", r, if isClockwise then " 0 1 1 " else " 0 1 0 ", hundredth dx]
+        <> " "
+        <> hundredth dy
+
+-- | Coordinates of a point in hundredths of a mm, to which the points of paths are rounded. A
+-- printer has some 40 dots for a mm.
+hundredths :: Point -> (Int, Int)
+hundredths p = (round (100 * Vec.x p), round (100 * Vec.y p))
 
 pair :: Point -> Text
-pair p = decimal (Vec.x p) <> " " <> decimal (Vec.y p)
+pair p = let (x, y) = hundredths p in hundredth x <> " " <> hundredth y
+
+-- | Decimal text of a count of hundredths. It is computed without floating point, because a drawing
+-- has up to a million of these numbers.
+hundredth :: Int -> Text
+hundredth n
+  | n < 0 = "-" <> hundredth (negate n)
+  | fraction == 0 = Decimal.whole front
+  | otherwise = Decimal.whole front <> "." <> digits
+  where
+    (front, fraction) = n `divMod` 100
+    digits
+      | fraction < 10 = "0" <> Decimal.whole fraction
+      | fraction `mod` 10 == 0 = Decimal.whole (fraction `div` 10)
+      | otherwise = Decimal.whole fraction
 
 decimal :: Double -> Text
 decimal = Decimal.short 4

@@ -62,6 +62,7 @@ data State = State
     readings' :: [(Region, Text)],
     namedPoints' :: [(Located Name, Point)],
     fittings' :: [(Located Name, Fitting)],
+    sizes' :: [AssertedSize],
     errors' :: [Error],
     -- | the number of evaluation steps that are left; a step is the unit of work in
     -- "Part.Evaluation"
@@ -90,6 +91,7 @@ evaluate program =
           contours = reverse (contours' final),
           operations = reverse (operations' final),
           fittings = reverse (fittings' final),
+          assertedSizes = reverse (sizes' final),
           readings = readings' final,
           namedPoints = reverse (namedPoints' final)
         }
@@ -128,6 +130,7 @@ initial inUnit =
       readings' = [],
       namedPoints' = [],
       fittings' = [],
+      sizes' = [],
       errors' = [],
       fuel = Evaluation.mostSteps
     }
@@ -166,7 +169,10 @@ step state (Located at s) = case s of
   Checked.Contour name closure items ->
     keep (ContourElement.contour env name closure items) $ \c ->
       (define state name Dimension.none (ContourValue c)) {contours' = c : contours' state}
-  Checked.Assert assertion -> keep (Assertion.check at env assertion) (const state)
+  Checked.Assert assertion ->
+    keep
+      (Assertion.check at env assertion *> Assertion.sizes env assertion)
+      (\found -> state {sizes' = reverse found <> sizes' state})
   Checked.Mill e side settings ->
     keep (Machining.milling now Milled at e side settings) (performed Mill)
   Checked.Pocket e stepover settings ->

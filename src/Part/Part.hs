@@ -14,6 +14,7 @@ module Part.Part
     polyarcOf,
     reversedContour,
     SpacePoint (..),
+    AssertedSize (..),
     Operation (..),
     Milling (..),
     MillingPlaces (..),
@@ -56,6 +57,7 @@ import Data.List.NonEmpty qualified as NonEmpty
 import Data.Text (Text)
 import Data.Traversable (mapAccumR)
 import Data.Tuple (swap)
+import Geometry.Carrier (Circle)
 import Geometry.ElementCarrier (ElementCarrier)
 import Geometry.Polyarc (Ends (..))
 import Geometry.Polyarc qualified as Polyarc
@@ -91,6 +93,8 @@ data Part = Part
     -- | the curves that consist of lines, parabolas and arcs fitted to a table: the name of each
     -- curve, and the fit
     fittings :: [(Located Name, Fitting)],
+    -- | the distances and radii to which assertions give values
+    assertedSizes :: [AssertedSize],
     -- | for editors: the values of the definitions as text, each with the region of the defined
     -- name
     readings :: [(Region, Text)],
@@ -98,6 +102,13 @@ data Part = Part
     -- program defines by name
     namedPoints :: [(Located Name, Point)]
   }
+  deriving stock (Eq, Show)
+
+-- | A size to which an assertion gives a value.
+data AssertedSize
+  = -- | the distance of two points
+    AssertedDistance Point Point Mm
+  | AssertedRadius Circle Mm
   deriving stock (Eq, Show)
 
 -- | A contour of the part.

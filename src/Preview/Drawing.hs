@@ -22,6 +22,7 @@ import Data.List qualified as List
 import Data.List.NonEmpty qualified as NonEmpty
 import Data.Maybe (fromMaybe, maybeToList)
 import Data.Text (Text)
+import Draw.FromPart qualified as Draw
 import Draw.Scene qualified as Scene
 import Geometry.Index.BoundingBox (BoundingBox (..))
 import Geometry.Index.BoundingBox qualified as BoundingBox
@@ -117,7 +118,7 @@ programDrawing chosen ProgramState {loaded, part, path, points} =
     [ ("contour", Reals (concatMap (segmentNumbers . Part.segment) elements)),
       ("contourPlace", Wholes (concatMap (placeNumbers known . Part.origin) elements)),
       ("hole", Reals (concatMap holeNumbers (Part.operations part))),
-      ("rest", Reals (concatMap segmentNumbers (concat (Scene.restMaterialOf path)))),
+      ("rest", Reals (concatMap segmentNumbers restSegments)),
       ("move", Reals (concatMap (moveNumbers . moveDrawn) moves)),
       ("moveInfo", Wholes (concatMap (moveInfo known) moves)),
       ("moveFeed", Reals (map (feedOf . moveDrawn) moves))
@@ -125,7 +126,8 @@ programDrawing chosen ProgramState {loaded, part, path, points} =
   )
   where
     known = ReportList.fileLines (source loaded)
-    shapes = Scene.sidedContours part
+    restSegments = concatMap Scene.around (Draw.restMaterialOf path)
+    shapes = Draw.sidedContours part
     elements = concatMap (NonEmpty.toList . Part.elements . fst) shapes
     starts = scanl (+) 0 (map (NonEmpty.length . Part.elements . fst) shapes)
     tools = toolsOf path
@@ -246,7 +248,7 @@ movesOf tools path = concat (snd (List.mapAccumL ofBlock first (Toolpath.blocks 
   where
     first = maybe (-1) indexOf (Toolpath.firstCutter (Toolpath.setup path))
     indexOf cutter = fromMaybe (-1) (List.elemIndex (toolKey cutter) tools)
-    isFinal = Scene.isLastPass path
+    isFinal = Draw.isLastPass path
     ofBlock tool block = case block of
       Commanding (Located _ (Part.ChangeTool _ cutter)) -> (indexOf cutter, [])
       Commanding _ -> (tool, [])
@@ -262,7 +264,7 @@ movesOf tools path = concat (snd (List.mapAccumL ofBlock first (Toolpath.blocks 
       Clearing {approach, cleared, retract} ->
         ( tool,
           map (linking tool True) approach
-            <> [DrawnMove m (Scene.isCut m) tool True | m <- NonEmpty.toList cleared]
+            <> [DrawnMove m (Draw.isCut m) tool True | m <- NonEmpty.toList cleared]
             <> map (linking tool True) retract
         )
     linking tool isLast m = DrawnMove m False tool isLast

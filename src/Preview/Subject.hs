@@ -17,6 +17,7 @@ import Base.Name (Name)
 import Base.Region (Located (value), Source)
 import Base.Region qualified as Region
 import Base.Result (Result (..))
+import Checked.Dimension qualified as Dimension
 import Checked.Type qualified as Type
 import Compile (Analysis (Analysis, mentions))
 import Compile qualified
@@ -122,7 +123,8 @@ soundProgram loaded mentions part path =
         [ Mention.place m
           | m <- mentions,
             OfValue (Type.Spatial d) <- [Mention.typing m],
-            Type.Spatial d /= Type.aPoint
+            -- A pair of lengths may be both; it is shown as a point.
+            d == Dimension.none
         ]
 
 -- | State after a change: the new text, its reports, and the new picture if there is one.

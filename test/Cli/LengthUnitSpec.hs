@@ -10,6 +10,7 @@ import Compile qualified
 import Data.Text (Text)
 import Data.Text qualified as Text
 import Draw.Plot qualified as Plot
+import Draw.PlotSettings qualified as PlotSettings
 import Generate.MachinedText qualified as MachinedText
 import Machines qualified
 import Part.Part qualified as Part
@@ -38,8 +39,8 @@ spec = do
     case Result.ifSound (Compile.analyse [] (LoadedProgram.fromText "p.part" plate)) of
       Nothing -> expectationFailure "there is no path"
       Just Analysis {part, path} -> do
-        let drawing = Plot.plot part path
-        drawing `shouldSatisfy` Text.isInfixOf "cutter Ø 0.25 in<"
+        let drawing = Plot.plot PlotSettings.standard part path
+        drawing `shouldSatisfy` Text.isInfixOf "cutter Ø 0.25 in, 5 in/min"
         drawing `shouldSatisfy` Text.isInfixOf ">1 in<"
         drawing `shouldSatisfy` (not . Text.isInfixOf " mm<")
   where

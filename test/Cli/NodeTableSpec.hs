@@ -13,6 +13,7 @@ import Data.List.NonEmpty (NonEmpty (..))
 import Data.List.NonEmpty qualified as NonEmpty
 import Data.Text qualified as Text
 import Draw.Plot qualified as Plot
+import Draw.PlotSettings qualified as PlotSettings
 import Generate (Case (..))
 import Generate qualified
 import Generate.Run qualified as Curve
@@ -51,7 +52,8 @@ spec =
                          ["20.000"]
                        ]
       it "a curve has nodes only at its ends (catches a node for each of its arcs)" $
-        Text.count "<circle" (layer "nodes" (Plot.plot winding path)) `shouldBe` 4
+        Text.count "<circle" (layer "nodes" (Plot.plot PlotSettings.standard winding path))
+          `shouldBe` 4
     _ -> it "has a path" (expectationFailure "there is none")
   where
     waves path =

@@ -6,7 +6,8 @@ import Base.Quantity (Mm (..), Rad (..))
 import Data.Text (Text)
 import Draw.Label (PointLabel (PointLabel))
 import Draw.Label qualified as Label
-import Draw.Page qualified as Page
+import Draw.Page (Area (Area))
+import Draw.Svg (TextStyle (TextStyle))
 import Draw.Svg qualified as Svg
 import Geometry.Index.BoundingBox (BoundingBox (BoundingBox))
 import Geometry.Index.BoundingBox qualified as BoundingBox
@@ -39,7 +40,7 @@ spec =
         forAll (choose (1, 8)) $ \n ->
           length
             ( placements
-                [ PointLabel "12345" (Vec.point (30 * fromIntegral k) 60) (Vec.vec 0 1) [2]
+                [ PointLabel "12345" (Vec.point (30 * fromIntegral k) 60) (Vec.vec 0 1) [2] letters
                   | k <- [1 .. n :: Int]
                 ]
             )
@@ -47,7 +48,10 @@ spec =
 
 -- | Centres and texts of the labels that are placed on an empty drawing.
 placements :: [PointLabel] -> [(Point, Text)]
-placements = Label.place Page.field (BoxTree.index id' [])
+placements given =
+  [ (p, Label.caption label)
+    | (p, label) <- Label.place (Area 10 10 287 184) (BoxTree.index id' []) given
+  ]
   where
     id' = const (BoundingBox 0 0 0 0)
 
@@ -63,7 +67,16 @@ labels = do
   where
     label :: Int -> Double -> Double -> Double -> PointLabel
     label number a x y =
-      PointLabel (Decimal.whole number) (Vec.point x y) (Vec.polar (Mm 1) (Rad a)) [1.2, 2, 3, 4]
+      PointLabel
+        (Decimal.whole number)
+        (Vec.point x y)
+        (Vec.polar (Mm 1) (Rad a))
+        [1.2, 2, 3, 4]
+        letters
+
+-- | Style of all labels.
+letters :: TextStyle
+letters = TextStyle {Svg.size = Label.size, Svg.ink = "black", Svg.bold = False}
 
 -- | Box that the text of a label covers, about its centre.
 covered :: (Point, Text) -> BoundingBox
