@@ -5,8 +5,8 @@ import { colours, painter } from './theme.js';
 import { Growing } from './growing.js';
 import { Viewport } from './viewport.js';
 import { drawGrid, drawNodes, drawPart, makeShapes, markContour } from './planbase.js';
-import { drawLines, drawSwept, makePathChunks, markParts, sweptPainters, tracePainters }
-  from './planpath.js';
+import { MANY, drawLines, drawSwept, makePathChunks, markParts, perScale, sweptPainters,
+  tracePainters } from './planpath.js';
 import { drawCompared } from './comparedraw.js';
 import { drawOver } from './planover.js';
 import { extentsOf, partsOfLine } from './paths.js';
@@ -113,7 +113,9 @@ function resize({ plan, v, canvases, store }) {
 function rebuild({ plan, store }) {
   const s = store.state;
   if (!s.drawing) return;
-  plan.shapes = makeShapes(s.drawing);
+  const { drawing } = s;
+  const isLarge = drawing.arrays.contour.length / 7 >= MANY;
+  plan.shapes = perScale(isLarge, (pixel) => makeShapes(drawing, 0.25 * pixel));
   const { tools } = s.drawing.header;
   const path = shownPath(s);
   plan.chunks = path
@@ -191,7 +193,7 @@ function base({ plan, v, context, store }) {
   if (!drawing?.header.drawn) return;
   const c = colours();
   if (layers.grid) drawGrid(context.base, v, c, drawing.header);
-  if (plan.shapes) drawPart(context.base, v, c, drawing, plan.shapes, layers);
+  if (plan.shapes) drawPart(context.base, v, c, drawing, plan.shapes(v.scale), layers);
 }
 
 function paths({ plan, v, context, store }) {

@@ -1,21 +1,26 @@
 // What stands still in the plan view: grid, axes, part, contours, holes, rest material and nodes.
 
 import { doubleArea, segAngle, segLength, segPoint } from './geometry.js';
-import { follows, trace } from './chunks.js';
+import { follows, penTrace, trace } from './chunks.js';
+import { Pen } from './simplify.js';
 import { unitSize } from './format.js';
 
-/** Shapes of a drawing as Path2D in mm, made once for each drawing. */
-export function makeShapes(drawing) {
+/** Shapes of a drawing as Path2D in mm, with lines simplified within a tolerance in mm. */
+export function makeShapes(drawing, tolerance) {
   const { contour, hole, rest } = drawing.arrays;
   const shapes = { lines: new Path2D(), body: new Path2D(), hasBody: false,
     rest: new Path2D(), sides: [] };
+  const lines = new Pen(shapes.lines, tolerance);
+  const body = new Pen(shapes.body, tolerance);
   for (const item of drawing.header.contours) {
     const end = item.from + item.count;
     for (let i = item.from; i < end; i++) {
-      trace(shapes.lines, contour, 7 * i, i > item.from && follows(contour, 7 * i, 7));
+      penTrace(lines, contour, 7 * i, i > item.from && follows(contour, 7 * i, 7));
     }
+    lines.flush();
     if (!item.closed || item.side === 'unknown') continue;
-    for (let i = item.from; i < end; i++) trace(shapes.body, contour, 7 * i, i > item.from);
+    for (let i = item.from; i < end; i++) penTrace(body, contour, 7 * i, i > item.from);
+    body.flush();
     shapes.body.closePath();
     shapes.hasBody = true;
     const left = (doubleArea(contour, item.from, item.count) > 0) === (item.side === 'inside');

@@ -6,8 +6,26 @@ import { follows, makeChunks, meets, penTrace, trace, tracePart } from './chunks
 
 const RUN = 300; // segments in one stroke
 
-const MANY = 4000; // parts of a path from which its lines are simplified
-const LEVELS = 3; // scales for which chunks are kept
+/** Parts of a path from which its lines are simplified. */
+export const MANY = 4000;
+
+const LEVELS = 3; // scales for which something is kept
+
+/**
+ * Keeps what is made for a size of a pixel in mm, for the last few scales: a power of 2 that is at
+ * most the size of a pixel, or 0 if nothing has to be simplified.
+ */
+export function perScale(isSimplified, make) {
+  const levels = new Map();
+  return (scale) => {
+    const level = isSimplified ? Math.ceil(Math.log2(scale)) : 0;
+    if (!levels.has(level)) {
+      if (levels.size >= LEVELS) levels.delete(levels.keys().next().value);
+      levels.set(level, make(isSimplified ? 1 / 2 ** level : 0));
+    }
+    return levels.get(level);
+  };
+}
 
 /**
  * Chunks of a path for its lines (coloured by a painter) and for its swept area (by tool). A long
@@ -17,16 +35,10 @@ export function makePathChunks(path, paint, tools) {
   const radius = (k) => tools[k]?.radius ?? 0;
   const sweptBin = (i) => (path.info[5 * i] === CUT && radius(path.info[5 * i + 1]) > 0
     ? path.info[5 * i + 1] : -1);
-  const levels = new Map();
-  const at = (scale) => {
-    const level = path.count < MANY ? 0 : Math.ceil(Math.log2(scale));
-    if (levels.has(level)) return levels.get(level);
-    const pixel = path.count < MANY ? 0 : 1 / 2 ** level;
-    if (levels.size >= LEVELS) levels.delete(levels.keys().next().value);
-    levels.set(level, { lines: makeChunks(path, paint.bin, 0.25 * pixel),
-      swept: makeChunks(path, sweptBin, 0.5 * pixel) });
-    return levels.get(level);
-  };
+  const at = perScale(path.count >= MANY, (pixel) => ({
+    lines: makeChunks(path, paint.bin, 0.25 * pixel),
+    swept: makeChunks(path, sweptBin, 0.5 * pixel),
+  }));
   return { at, paint, radius };
 }
 

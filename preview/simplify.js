@@ -43,6 +43,10 @@ export class Pen {
 
   /** Draws an arc that ends at a point; lengths in mm, angles in radians. */
   arc(cx, cy, radius, begin, phi, x, y) {
+    if (Math.abs(phi) < 1 && radius * (1 - Math.cos(phi / 2)) < this.tolerance / 2) {
+      this.line(x, y);
+      return;
+    }
     this.flush();
     this.target.arc(cx, cy, radius, begin, begin + phi, phi < 0);
     this.#restart(x, y);

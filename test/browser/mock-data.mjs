@@ -267,7 +267,8 @@ export function drawing(version, mode, options = {}) {
   const text = mode === 'changed' ? TEXT.replaceAll('120', '130') : TEXT;
   const files = [{ name: 'plate.part', text }, { name: 'shapes.part', text: IMPORT }];
   const header = {
-    version, kind: 'program', name: 'plate.part', title: 'Plate with a slot and two holes',
+    version, editor: true, kind: 'program', name: 'plate.part',
+    title: 'Plate with a slot and two holes',
     unit: options.unit ?? 'mm', turned: good === 'turned',
     reports: mode === 'error' ? REPORTS : [], present: mode !== 'error', drawn: true,
     files, presentFiles: files, machines: MACHINES,
