@@ -60,7 +60,9 @@ open (Pages pages) send path state = do
       void . forkIO $ do
         ended <- Server.withServer AnyPort site $ \at -> do
           putMVar address (Just at)
-          state >>= Server.publish site
+          change <- state
+          -- A later text may have been analysed in the meantime.
+          Server.publish site (\now -> if Subject.version now == 0 then change now else now)
           forever (threadDelay 1000000000)
         either (const (putMVar address Nothing)) pure ended
       pure (site, address)

@@ -51,7 +51,7 @@ runContainer :: Followed -> TapeRun -> [Report] -> ByteString
 runContainer followed played reports = Container.encode members columns
   where
     members =
-      commonMembers followed (machine played) reports
+      commonMembers followed played reports
         <> [ "clock" .= fromMaybe 1 (Controller.ticksPerSecond (machine played)),
              "start" .= millimetresOf (machine played) (startOf played),
              "stop" .= maybe "" (StopText.stopText (machine played) . stopReason) total,
@@ -111,14 +111,12 @@ headMembers followed name title reports =
     "reports" .= ReportList.reportList (fileName followed) (Subject.soundSource followed) reports
   ]
 
-commonMembers :: Followed -> Machine -> [Report] -> [Pair]
-commonMembers followed machine reports =
+commonMembers :: Followed -> TapeRun -> [Report] -> [Pair]
+commonMembers followed played@TapeRun {machine} reports =
   headMembers followed name (Machine.title machine) reports
     <> [ "axes" .= axisEntries machine,
          "tracks"
-           .= if isJust (Machine.programForm machine)
-             then 0
-             else Machine.tracks (Machine.medium machine)
+           .= if isJust (text played) then 0 else Machine.tracks (Machine.medium machine)
        ]
   where
     MachineName name = Machine.name machine

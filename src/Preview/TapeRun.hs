@@ -6,15 +6,20 @@ module Preview.TapeRun
   )
 where
 
+import Base.LazyList qualified as LazyList
 import Base.PulseVector (Pulses3)
 import Base.Region (Region)
 import Base.Result (Result (..))
 import Compile (Punched (..))
 import Compile qualified
+import Control.Applicative ((<|>))
+import Data.ByteString qualified as ByteString
 import Data.List qualified as List
 import Data.Maybe (fromMaybe)
 import Data.Text (Text)
 import Data.Text qualified as Text
+import Data.Text.Encoding qualified as Encoding
+import Data.Text.Encoding.Error qualified as Encoding
 import Data.Vector (Vector)
 import Data.Vector qualified as Vector
 import Frame.Frame (PlannedFrame (origin, role), Role (..))
@@ -33,7 +38,9 @@ import Project.Target qualified as Target
 import Pulse.Controller (Console)
 import Pulse.Controller qualified as Controller
 import Report.Report (Report)
-import Tape.Tape (Tape)
+import Tape.Punch (TapeFrame (rowsRead))
+import Tape.Punch qualified as Punch
+import Tape.Tape (Tape (Tape))
 import Toolpath.Toolpath (Toolpath)
 import Toolpath.Toolpath qualified as Toolpath
 import Verify.FromGcode qualified as FromGcode
@@ -68,7 +75,7 @@ fromSound subject name = case subject of
           start = 0,
           rows = aloneTape,
           facts = Vector.empty,
-          text = gcodeText
+          text = gcodeText <|> plainText tapeMachine 0 aloneTape
         }
 
 ofProgram :: ProgramState -> Text -> Result Report Report TapeRun
@@ -85,7 +92,7 @@ withFrames loaded path machine punched@Punched {program, tape} =
       start = Frame.start program,
       rows = tape,
       facts = Vector.fromList (frameFacts (ReportList.fileLines (source loaded)) path planned),
-      text = writtenText machine path punched
+      text = writtenText machine path punched <|> plainText machine (Frame.start program) tape
     }
   where
     planned = Frame.plannedFrames program
@@ -103,6 +110,23 @@ writtenText machine path Punched {program, files} = written <$> Machine.programF
           (map readFrom . readFrames)
           (FromGcode.readTexts machine form (Heading.fromToolpath path) program texts)
       )
+
+-- | Text of a machine whose medium is a text without a form of programs, and the line in which each
+-- frame ends; Nothing for a punched tape.
+plainText :: Machine -> Pulses3 -> Tape -> Maybe (Text, [Int])
+plainText machine start tape@(Tape bytes) = case Machine.pitch (Machine.medium machine) of
+  Just _ -> Nothing
+  Nothing ->
+    Just
+      ( Encoding.decodeUtf8With Encoding.lenientDecode bytes,
+        linesOf 1 (ByteString.elemIndices 10 bytes) (drop 1 (scanl (+) 0 counts))
+      )
+  where
+    counts = map rowsRead (LazyList.toList (Punch.readInTurn machine start tape))
+    linesOf n breaks ends = case (breaks, ends) of
+      (b : more, e : _) | b + 1 < e -> linesOf (n + 1) more ends
+      (_, _ : others) -> n : linesOf n breaks others
+      (_, []) -> []
 
 -- | Facts of planned frames. The tool changes at the frame of a tool change.
 frameFacts :: FileLines -> Toolpath -> [PlannedFrame] -> [FrameFact]

@@ -18,7 +18,7 @@ import Preview.WebClient
 import Project.LoadedProgram qualified as LoadedProgram
 import Query.Snapshot qualified as Snapshot
 import Query.TapeFacts qualified as TapeFacts
-import System.IO (Handle)
+import System.IO (Handle, hClose)
 import System.Process (createPipe)
 import System.Timeout (timeout)
 import Test.Hspec
@@ -155,5 +155,7 @@ conversing canShow act = within $ do
   send to (notice "initialized" (object []))
   send to (opened (Text.replace "\r" "" text))
   act to from
+  -- The end of its input ends the server. Until here the stream is kept open.
+  hClose to
   where
     window = object ["showDocument" .= object ["support" .= canShow]]

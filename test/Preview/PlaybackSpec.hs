@@ -73,9 +73,9 @@ spec = do
           infos = fives (Answer.wholes "frameInfo" answer)
       take 4 [i !! 3 | i <- infos] `shouldBe` [26, 25, 19, 19]
       map head infos `shouldBe` [0, 1] <> replicate 18 2 <> [1, 0, 3]
-    it "gives the lines of a file of G-code" $ do
+    forM_ ["linuxcnc-mill", "iso6983"] $ \machine -> it ("has lines: " <> Text.unpack machine) $ do
       followed <- Answer.followedFile "examples/cnc/cover.part"
-      run <- Answer.running "linuxcnc-mill" followed
+      run <- Answer.running machine followed
       let answer = Answer.decode (Playback.runContainer followed run [])
           text = Text.lines (Answer.member "text" answer)
           rows = pairs (Answer.wholes "frameRow" answer)
