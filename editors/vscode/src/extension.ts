@@ -16,6 +16,10 @@ export async function activate(context: vscode.ExtensionContext): Promise<void> 
     vscode.commands.registerCommand('partc.restart', () => running.restart()),
     vscode.commands.registerCommand('partc.compile', () => compile()),
     vscode.commands.registerCommand('partc.showPicture', () => panel.show()),
+    vscode.commands.registerCommand('partc.showPreview', async () => {
+      const document = vscode.window.activeTextEditor?.document
+      if (document) await running.preview(document)
+    }),
     vscode.window.onDidChangeTextEditorSelection(({ textEditor }) => {
       if (textEditor.document.languageId === 'part') running.cursorAt(textEditor.document, textEditor.selection.active)
     }),

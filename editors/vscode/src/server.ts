@@ -75,6 +75,24 @@ export class Server implements vscode.Disposable {
     }
   }
 
+  // Lets the server serve the page of the preview for a document. The server then asks VS Code to open it in the browser.
+  async preview(document: vscode.TextDocument): Promise<void> {
+    const client = this.client
+    if (!client?.isRunning()) {
+      void vscode.window.showInformationMessage('partc does not run, so there is no preview.')
+      return
+    }
+    try {
+      await client.sendRequest('workspace/executeCommand', {
+        command: 'partc.preview',
+        arguments: [client.code2ProtocolConverter.asUri(document.uri)],
+      })
+    } catch (failure) {
+      this.log.appendLine(`partc.preview: ${failure}`)
+      void vscode.window.showErrorMessage('This version of partc has no preview.')
+    }
+  }
+
   // Tells the pages of the preview where the cursor is.
   cursorAt(document: vscode.TextDocument, position: vscode.Position): void {
     const client = this.client
@@ -127,15 +145,6 @@ export class Server implements vscode.Disposable {
       // The problem matcher has the same name, so that a report of `partc compile` replaces that of the server.
       diagnosticCollectionName: 'partc',
       outputChannel: this.log,
-      // The command partc.preview of the server is about the active document, unless its caller names another one. The
-      // server then asks VS Code to open the page in the browser.
-      middleware: {
-        executeCommand: (command, args, next) => {
-          const document = vscode.window.activeTextEditor?.document
-          const own = document && this.client?.code2ProtocolConverter.asUri(document.uri)
-          return next(command, args.length > 0 || !own ? args : [own])
-        },
-      },
       // Files that a program may import or name.
       synchronize: { fileEvents: vscode.workspace.createFileSystemWatcher('**/*.{part,csv,machine}') },
     }
