@@ -97,10 +97,13 @@ export class Server implements vscode.Disposable {
   cursorAt(document: vscode.TextDocument, position: vscode.Position): void {
     const client = this.client
     if (!client?.isRunning()) return
-    void client.sendNotification('partc/cursor', {
-      textDocument: client.code2ProtocolConverter.asTextDocumentIdentifier(document),
-      position: client.code2ProtocolConverter.asPosition(position),
-    })
+    // The server may end at this moment.
+    client
+      .sendNotification('partc/cursor', {
+        textDocument: client.code2ProtocolConverter.asTextDocumentIdentifier(document),
+        position: client.code2ProtocolConverter.asPosition(position),
+      })
+      .catch(() => undefined)
   }
 
   private enqueue(task: () => Promise<void>): Promise<void> {
