@@ -62,8 +62,8 @@ data Subcommand
   | -- | the program, the drawing to write, its page and its line styles
     Plot FilePath (Maybe FilePath) PlotSettings
   | -- | the machine, without which the command fails; the rows to show; the drawing to write, or
-    -- nothing for a picture in letters; the tape
-    DrawTape (Maybe Text) RowRange (Maybe FilePath) FilePath
+    -- nothing for a picture in letters, and true if it is punched into film; the tape
+    DrawTape (Maybe Text) RowRange (Maybe (FilePath, Bool)) FilePath
   | -- | the machine, or nothing for the list of all machines; true for the text of the machine's
     -- description instead of a table
     Machines (Maybe Text) Bool
@@ -197,7 +197,7 @@ commands =
         "tape"
         "Draw the rows of a tape with their meaning"
         "partc tape -t lkp-01f flange.tape --frames 1..3"
-        (DrawTape <$> optional target <*> rangeOption <*> optional drawingFile <*> tape),
+        (DrawTape <$> optional target <*> rangeOption <*> optional tapeDrawing <*> tape),
       entry
         "plot"
         "Draw part, path, nodes and cutter as SVG"
@@ -468,9 +468,11 @@ rangeOption =
 outputFile :: Parser FilePath
 outputFile = outputOption "The file to write; - for standard output"
 
-drawingFile :: Parser FilePath
-drawingFile =
-  outputOption "An SVG drawing of the tape at its true size, instead of a picture in letters"
+tapeDrawing :: Parser (FilePath, Bool)
+tapeDrawing =
+  (,)
+    <$> outputOption "A drawing of the tape at its true size, instead of a picture in letters"
+    <*> Opt.switch (Opt.long "film" <> Opt.help "With -o: the tape as 35 mm film, not as paper")
 
 outputOption :: String -> Parser FilePath
 outputOption help =

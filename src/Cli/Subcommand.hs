@@ -59,6 +59,7 @@ import Data.Text.Encoding qualified as Encoding
 import Draw.Plot qualified as Plot
 import Draw.PlotSettings (PlotSettings)
 import Draw.TapeRows qualified as TapeRows
+import Draw.TapeSheet (TapeMaterial (..))
 import Draw.TapeSheet qualified as TapeSheet
 import Frame.Frame (Frame)
 import Frame.Frame qualified as Frame
@@ -114,7 +115,8 @@ perform reporter command = case command of
   Preview options -> PreviewCommand.preview reporter options
   Machines name asText -> machines reporter name asText
   DrawTape target range Nothing tape -> drawTape reporter target range tape
-  DrawTape target range (Just path) tape -> drawSheet reporter target range path tape
+  DrawTape target range (Just (path, isFilm)) tape ->
+    drawSheet reporter target range (if isFilm then Film else PaperTape) path tape
   Explain code -> explain reporter code
   LanguageServer -> LanguageServer.serve reporter
   Fmt checkOnly files ->
@@ -433,8 +435,9 @@ drawTape reporter target range tapeFile =
 
 -- | Writes a drawing of those rows of a tape that are in @range@, at their true size, to @path@. A
 -- range outside of the tape is an error, and so is a tape that is a text.
-drawSheet :: Reporter -> Maybe Text -> TapeRows.RowRange -> FilePath -> FilePath -> IO Exit
-drawSheet reporter target range path tapeFile =
+drawSheet ::
+  Reporter -> Maybe Text -> TapeRows.RowRange -> TapeMaterial -> FilePath -> FilePath -> IO Exit
+drawSheet reporter target range material path tapeFile =
   withTapeFile reporter target tapeFile $ \machine rows ->
     if isNothing (Machine.pitch (Machine.medium machine))
       then failWith reporter (displayName tapeFile) (NotPunched (nameOf machine))
@@ -442,7 +445,7 @@ drawSheet reporter target range path tapeFile =
         let numbered = zip [1 ..] (Tape.rows machine 0 read')
             (counted, count) = TapeRows.extent machine range (map snd numbered)
             title = Text.pack (takeFileName (Text.unpack (displayName tapeFile)))
-        case TapeSheet.sheet machine title (TapeRows.chosen range numbered) of
+        case TapeSheet.sheet material machine title (TapeRows.chosen range numbered) of
           Nothing -> failWith reporter (displayName tapeFile) (NothingInRange counted count)
           Just drawing ->
             writeDrawing reporter (displayName tapeFile) [tapeFile] (Just path) drawing

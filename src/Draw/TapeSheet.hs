@@ -8,10 +8,17 @@
 -- The sizes are those of ISO 1154: holes of 1.83 mm and sprocket holes of 1.17 mm, tracks 2.54 mm
 -- apart. The line of the sprocket holes is 9.96 mm from the edge of the tape beside which three
 -- tracks lie. A tape of another width than that of the standard has the difference at both edges.
+--
+-- The tape may also be punched into 35 mm film, as for the ЛКП-01Ф (sourced). The film has its own
+-- perforations, with the sizes of ISO 491, type KS. The holes are those of the paper tape, because
+-- the same punch makes both (sourced). Their position in the middle of the film, and the 2.54 mm
+-- from row to row, are reconstructed.
 module Draw.TapeSheet
   ( sheet,
     TapeGeometry,
+    TapeMaterial (..),
     geometryOf,
+    filmPerforations,
     trackPosition,
     sprocketPosition,
   )
@@ -36,9 +43,14 @@ import Machine.Machine qualified as Machine
 import Tape.Layout (RowKind (..))
 import Tape.RowMeaning (Row (..))
 
+-- | Material into which a tape is punched.
+data TapeMaterial = PaperTape | Film
+  deriving stock (Eq, Show)
+
 -- | Sizes of a tape in mm.
 data TapeGeometry = TapeGeometry
-  { trackCount :: Int,
+  { material :: TapeMaterial,
+    trackCount :: Int,
     -- | from one row to the next
     step :: Double,
     paperWidth :: Double
@@ -46,15 +58,18 @@ data TapeGeometry = TapeGeometry
   deriving stock (Eq, Show)
 
 -- | Sizes of a punched tape; Nothing for a text, which is not punched.
-geometryOf :: Medium -> Maybe TapeGeometry
-geometryOf medium = case Machine.pitch medium of
+geometryOf :: TapeMaterial -> Medium -> Maybe TapeGeometry
+geometryOf material medium = case Machine.pitch medium of
   Nothing -> Nothing
   Just (Mm p) ->
     Just
       TapeGeometry
-        { trackCount = n,
+        { material,
+          trackCount = n,
           step = p,
-          paperWidth = maybe (standardWidth n) (\(Mm w) -> w) (Machine.width medium)
+          paperWidth = case material of
+            PaperTape -> maybe (standardWidth n) (\(Mm w) -> w) (Machine.width medium)
+            Film -> filmWidth
         }
   where
     n = Machine.tracks medium
@@ -64,13 +79,25 @@ geometryOf medium = case Machine.pitch medium of
 standardWidth :: Int -> Double
 standardWidth n = if n <= 5 then 17.46 else 25.4
 
--- | Distance in mm of the sprocket holes from the left edge. The highest track is on the left.
+-- | Sizes of 35 mm film in mm: its width, the distance of the perforations from one another and of
+-- their middles from the edge, and the sizes of a perforation along and across the film.
+filmWidth, perforationStep, perforationEdge, perforationLength, perforationWidth :: Double
+filmWidth = 34.975
+perforationStep = 4.75
+perforationEdge = 2.01 + 2.8 / 2
+perforationLength = 1.98
+perforationWidth = 2.8
+
+-- | Distance in mm of the sprocket holes of a paper tape from the left edge. The highest track is
+-- on the left. On film this place, in the middle of the tracks, has no hole.
 sprocketPosition :: TapeGeometry -> Double
 sprocketPosition g
+  | material g == Film = (filmWidth + apart * fromIntegral (trackCount g - 2 * before)) / 2
   | trackCount g <= 5 = fromEdge
   | otherwise = paperWidth g - fromEdge
   where
     fromEdge = 9.96 + (paperWidth g - standardWidth (trackCount g)) / 2
+    before = TapeRows.sprocket (trackCount g)
 
 -- | Distance in mm of a track, from 1, from the left edge.
 trackPosition :: TapeGeometry -> Int -> Double
@@ -79,14 +106,18 @@ trackPosition g k
   | otherwise = sprocketPosition g + apart * fromIntegral (before + 1 - k)
   where
     before = TapeRows.sprocket (trackCount g)
-    apart = 2.54
+
+-- | Distance of neighbouring tracks in mm.
+apart :: Double
+apart = 2.54
 
 -- | Numbered rows of a tape as an SVG document. @title@ names the tape. Nothing for a text, and if
 -- there are no rows.
-sheet :: Machine -> Text -> [(Int, Row)] -> Maybe Text
-sheet machine title rows = case (geometryOf (Machine.medium machine), NonEmpty.nonEmpty rows) of
-  (Just g, Just some) -> Just (document machine title g some)
-  _ -> Nothing
+sheet :: TapeMaterial -> Machine -> Text -> [(Int, Row)] -> Maybe Text
+sheet material machine title rows =
+  document machine title
+    <$> geometryOf material (Machine.medium machine)
+    <*> NonEmpty.nonEmpty rows
 
 -- Pages -------------------------------------------------------------------------------------------
 
@@ -113,6 +144,9 @@ document machine title g rows =
     title
     [ Svg.layer "pages" [Svg.rectangle (Pen "none" 0 []) "white" (pageArea k) | k <- pages],
       Svg.layer "paper" (map (paper g) strips),
+      Svg.layer
+        "perforations"
+        [Svg.rectangle (Pen "none" 0 []) "white" a | s <- strips, a <- filmPerforations g (ends s)],
       Svg.layer "positions" [Svg.dots "#c8bfa6" 0.3 (positions g s) | s <- strips],
       Svg.layer "sprocket-holes" [Svg.dots LineStyle.black 1.17 (sprockets g s) | s <- strips],
       Svg.layer "holes" [Svg.dots LineStyle.black 1.83 (punched g s) | s <- strips],
@@ -122,6 +156,7 @@ document machine title g rows =
       Svg.layer "title" (concatMap (pageTitle machine title g rows pageCount) pages)
     ]
   where
+    ends s = (left s, top s, bottom g s)
     strips = arranged g (columnWidth g frameColumn rows) rows
     pageCount = maximum (1 : map pageOf strips)
     pages = [1 .. pageCount]
@@ -181,11 +216,22 @@ paper :: TapeGeometry -> Strip -> Svg
 paper g s =
   Svg.rectangle
     (Pen "#8a7f63" 0.1 [])
-    "#f4ecd6"
+    (case material g of PaperTape -> "#f4ecd6"; Film -> "#e4e6e8")
     (Area (left s) (top s) (left s + paperWidth g) (bottom g s))
 
 sprockets :: TapeGeometry -> Strip -> [Vec.Point]
-sprockets g s = [Vec.point (left s + sprocketPosition g) y | (y, _) <- placed g s]
+sprockets g s =
+  [Vec.point (left s + sprocketPosition g) y | material g == PaperTape, (y, _) <- placed g s]
+
+-- | Perforations of a strip of film, which has its left edge, its top and its bottom at these
+-- positions. A paper tape has none.
+filmPerforations :: TapeGeometry -> (Double, Double, Double) -> [Area]
+filmPerforations g (x, y, end) =
+  [ Area (c - perforationWidth / 2) m (c + perforationWidth / 2) (m + perforationLength)
+    | material g == Film,
+      m <- takeWhile (< end - perforationLength) [y + perforationStep * (k + 0.3) | k <- [0 ..]],
+      c <- [x + perforationEdge, x + filmWidth - perforationEdge]
+  ]
 
 -- | Centres of the punched holes.
 punched :: TapeGeometry -> Strip -> [Vec.Point]
@@ -223,8 +269,8 @@ cutMarks g s =
        ]
     <> [ Svg.text letters Middle (Vec.point (left s + position) (top s - 1.2)) label
          | (position, label) <-
-             (sprocketPosition g, "∘") :
-               [(trackPosition g k, Decimal.whole k) | k <- [1 .. trackCount g]]
+             [(sprocketPosition g, "∘") | material g == PaperTape]
+               <> [(trackPosition g k, Decimal.whole k) | k <- [1 .. trackCount g]]
        ]
   where
     middle = left s + paperWidth g / 2
@@ -280,6 +326,7 @@ pageTitle :: Machine -> Text -> TapeGeometry -> NonEmpty (Int, Row) -> Int -> In
 pageTitle machine title g rows pageCount k =
   [ Svg.text heading Start (Vec.point margin (y + 12)) title,
     Svg.text letters {size = 2.6} Start (Vec.point margin (y + 17)) facts,
+    Svg.text letters {size = 2.6} Start (Vec.point margin (y + 21)) onFilm,
     Svg.text letters {size = 2.6} End (Vec.point (pageWidth - margin) (y + 12)) page,
     Svg.stroke
       (Pen LineStyle.black 0.3 [])
@@ -295,6 +342,9 @@ pageTitle machine title g rows pageCount k =
     heading = TextStyle {size = 4.5, ink = LineStyle.black, bold = True}
     MachineName name = Machine.name machine
     count = NonEmpty.length rows
+    onFilm = case material g of
+      PaperTape -> ""
+      Film -> "35 mm film; the positions of the rows on it are reconstructed"
     page = "page " <> Decimal.whole k <> " of " <> Decimal.whole pageCount
     facts =
       name

@@ -1,5 +1,5 @@
--- | The path in drawings and in the preview, compared with the toolpath in mm, and the area that the
--- cutter sweeps along it.
+-- | The path in drawings and in the preview, compared with the toolpath in mm, and the area that
+-- the cutter sweeps along it.
 module Draw.SweptAreaSpec (spec) where
 
 import Base.Quantity (Mm (..))

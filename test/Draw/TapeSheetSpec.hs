@@ -9,6 +9,8 @@ import Data.Text (Text)
 import Data.Text qualified as Text
 import Data.Text.Read qualified as Read
 import Data.Word (Word8)
+import Draw.Page (Area (Area))
+import Draw.TapeSheet (TapeMaterial (..))
 import Draw.TapeSheet qualified as TapeSheet
 import Machine.Machine (Machine)
 import Machine.Machine qualified as Machine
@@ -34,21 +36,34 @@ spec = describe "the drawing of a tape" $ do
       snd texts `shouldNotBe` ""
       [x | (x, _, w, _) <- strips (drawing machine), x < 12 || x + w > 198] `shouldBe` []
   it "has the tracks of ISO 1154 for a tape of one inch" $ do
-    g <- maybe (fail "no tape") pure (TapeSheet.geometryOf (Machine.medium n55))
+    g <- maybe (fail "no tape") pure (TapeSheet.geometryOf PaperTape (Machine.medium n55))
     TapeSheet.sprocketPosition g `shouldBe` 25.4 - 9.96
     map (hundredths . TapeSheet.trackPosition g) [1, 3, 4, 8] `shouldBe` [2306, 1798, 1290, 274]
   it "has three tracks beside the nearer edge of a narrow tape" $ do
-    g <- maybe (fail "no tape") pure (TapeSheet.geometryOf (Machine.medium kontur3p))
+    g <- maybe (fail "no tape") pure (TapeSheet.geometryOf PaperTape (Machine.medium kontur3p))
     map (hundredths . TapeSheet.trackPosition g) [5, 3, 2, 1] `shouldBe` [236, 744, 1252, 1506]
+  it "has on film the perforations of the film at both edges, and no sprocket holes" $ do
+    g <- maybe (fail "no tape") pure (TapeSheet.geometryOf Film (Machine.medium lkp01f))
+    let areas = TapeSheet.filmPerforations g (0, 0, 475)
+        middles = [(left + right) / 2 | Area left _ right _ <- areas]
+    length areas `shouldBe` 2 * 100
+    nubOrd (map hundredths middles) `shouldBe` [341, 3157]
+    map (hundredths . TapeSheet.trackPosition g) [5, 4, 3, 2, 1]
+      `shouldBe` [1114, 1368, 1622, 2130, 2384]
+    let svg = fromMaybe "" (TapeSheet.sheet Film lkp01f "tape" (zip [1 ..] (rowsOf lkp01f)))
+    pointsOf "sprocket-holes" svg `shouldBe` []
+    length (pointsOf "holes" svg) `shouldBe` length (pointsOf "holes" (drawing lkp01f))
   it "is only for punched tapes" $
-    TapeSheet.sheet iso6983 "text" (zip [1 ..] (rowsOf iso6983)) `shouldBe` Nothing
+    TapeSheet.sheet PaperTape iso6983 "text" (zip [1 ..] (rowsOf iso6983)) `shouldBe` Nothing
 
 rowsOf :: Machine -> [Row]
 rowsOf machine = Punch.rows machine start (journey machine)
 
 drawing :: Machine -> Text
 drawing machine =
-  fromMaybe (error "no drawing") (TapeSheet.sheet machine "tape" (zip [1 ..] (rowsOf machine)))
+  fromMaybe
+    (error "no drawing")
+    (TapeSheet.sheet PaperTape machine "tape" (zip [1 ..] (rowsOf machine)))
 
 hundredths :: Double -> Int
 hundredths x = round (100 * x)
@@ -79,7 +94,7 @@ holesIn machine svg =
       k : _ -> k - 1
       [] -> error ("a hole is on no track: " <> show dx)
     near dx k = abs (TapeSheet.trackPosition geometry k - dx) < 1.0e-3
-    geometry = fromMaybe (error "no tape") (TapeSheet.geometryOf (Machine.medium machine))
+    geometry = fromMaybe (error "no tape") (TapeSheet.geometryOf PaperTape (Machine.medium machine))
 
 -- | The rectangles of the paper: left edge, upper edge, width and height.
 strips :: Text -> [(Double, Double, Double, Double)]
