@@ -68,6 +68,7 @@ export function compareMachines(frames, run) {
     chunks: makeChunks(path, (i) => path.info[5 * i]),
     seconds: lastEnd(run),
     frames: path.count,
+    fault: path.count === 0 ? run.header.reports[0]?.text ?? 'there is no tape' : '',
     apart: frames ? largestDistance(frames, path) : null,
   };
 }

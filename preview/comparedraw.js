@@ -9,6 +9,7 @@ const MOST_SIGNS = 300;
 
 /** Draws a comparison into the plan view. */
 export function drawCompared(context, v, c, other, layers) {
+  if (other.kind === 'none') return;
   if (other.kind === 'before') {
     drawPart(context, v, c.gone, other.gone, [7, 4], '\u2212');
     drawPart(context, v, c.new, other.fresh, [], '+');

@@ -1,7 +1,7 @@
 // The list of the frames of the tape.
 
 import { createList, span } from './vlist.js';
-import { KIND_NAMES, partsOfLine } from './paths.js';
+import { KIND_NAMES, RAPID, partsOfLine } from './paths.js';
 import { feedNumber, time } from './format.js';
 
 /** Makes the list of frames. `choose(index, far)` is called for a click; far means go there. */
@@ -46,6 +46,7 @@ function fill(store, row, i, present) {
   else if (i === present) row.classList.add('present');
   const line = frames.info[5 * i + 2] >= 0 ? String(frames.info[5 * i + 3]) : '';
   row.append(span(String(i + 1)), span(KIND_NAMES[kind] ?? '?'), span(line),
-    span(feedNumber(frames.feed[2 * i], drawing.header.unit)),
+    span(kind === RAPID && !run.header.pulsed ? 'rapid'
+      : feedNumber(frames.feed[2 * i], drawing.header.unit)),
     span(time(run.arrays.frameTick[3 * i] / run.header.clock)));
 }

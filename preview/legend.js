@@ -68,6 +68,7 @@ export function compareTexts(state) {
     ? `${length(other.apart.distance, unit)} ${unitName(unit)} at `
       + `(${length(other.apart.x, unit)}, ${length(other.apart.y, unit)})`
     : 'not found, there are too many frames';
+  if (other.fault) return [[`${other.title}: ${other.fault}`, '']];
   const own = run ? `${frames.count} frames in ${time(endOf(run))}; ` : '';
   return [[`${own}${other.title}: ${other.frames} frames in ${time(other.seconds)}. `
     + `Largest distance of the cuts in plan: ${apart}`, '']];

@@ -16,7 +16,7 @@ export function createLoader(store) {
   loader.chooseMachine = (name) => {
     loader.chosen = Boolean(name);
     store.set({ machine: name || null });
-    return loadRun(loader);
+    return loadRun(loader).then(() => compare(loader));
   };
   loader.pulses = () => loadPulses(loader);
   loader.compare = (what) => {

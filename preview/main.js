@@ -330,7 +330,7 @@ function heading(s) {
 function status(s, header) {
   const counts = countText([...(header?.reports ?? []), ...(s.run?.header.reports ?? [])]);
   const lost = s.connection === 'lost';
-  get('status').textContent = lost ? 'partc has ended; this page waits for it to start again.'
+  get('status').textContent = lost ? 'partc has ended. Start it again, and open the new address.'
     : s.fault || counts || (header ? 'no mistakes' : 'loading');
   get('status').classList.toggle('bad', lost || Boolean(s.fault) || counts.includes('error'));
 }
@@ -343,7 +343,7 @@ function playback(s) {
     none: s.drawing?.header.drawn ? 'Choose a machine to play the tape.' : '',
     loading: 'The tape is being made.',
     failed: `There is no tape: ${s.runFault}`,
-    ready: there ? '' : 'This machine makes no tape of the program; see its reports.',
+    ready: there ? '' : `There is nothing to play. ${s.run?.header.why ?? ''}`,
   };
   get('no-run').textContent = s.runState === 'loading' && s.run ? '' : texts[s.runState];
 }

@@ -86,12 +86,14 @@ export function deepest(path) {
 }
 
 /** Lines of the contours at z = 0, and at the height of the bottom in mm. */
-export function contourLines(drawing, bottom, colour, soft) {
+export function contourLines(drawing, colour, soft) {
   const lines = lineCollector();
   const { contour, hole } = drawing.arrays;
-  for (let o = 0; o < contour.length; o += 7) {
-    addSegment(lines, contour, o, 0, 0, colour, false);
-    if (bottom < 0) addSegment(lines, contour, o, bottom, bottom, soft, false);
+  for (const { from, count, depth } of drawing.header.contours) {
+    for (let o = 7 * from; o < 7 * (from + count); o += 7) {
+      addSegment(lines, contour, o, 0, 0, colour, false);
+      if (depth < 0) addSegment(lines, contour, o, depth, depth, soft, false);
+    }
   }
   for (let o = 0; o + 3 < hole.length; o += 4) {
     const circle = [hole[o] + hole[o + 2], hole[o + 1], hole[o] + hole[o + 2], hole[o + 1],
@@ -102,11 +104,14 @@ export function contourLines(drawing, bottom, colour, soft) {
   return lines.data();
 }
 
-/** Triangles of walls from z = 0 down to the bottom in mm, along the contours. */
-export function walls(drawing, bottom) {
+/** Triangles of walls from z = 0 down to the depth of each contour in mm. */
+export function walls(drawing) {
   const out = [];
   const { contour, hole } = drawing.arrays;
-  for (let o = 0; o < contour.length; o += 7) addWall(out, contour, o, bottom);
+  for (const { from, count, depth } of drawing.header.contours) {
+    if (!(depth < 0)) continue;
+    for (let o = 7 * from; o < 7 * (from + count); o += 7) addWall(out, contour, o, depth);
+  }
   for (let o = 0; o + 3 < hole.length; o += 4) {
     const circle = [hole[o] + hole[o + 2], hole[o + 1], hole[o] + hole[o + 2], hole[o + 1],
       hole[o], hole[o + 1], 2 * Math.PI];

@@ -1,6 +1,7 @@
 // The panel that shows what happens at the present tick.
 
-import { KIND_NAMES } from './paths.js';
+import { KIND_NAMES, RAPID } from './paths.js';
+import { toolName } from './theme.js';
 import { above, sampleAt } from './position.js';
 import { feed, hertz, length, time, unitName } from './format.js';
 
@@ -39,9 +40,9 @@ export function createReadout(list, store, clock) {
       const shown = i >= 0;
       put('frame', `${i + 1} of ${frames.count}`);
       const tool = drawing.header.tools[at.tool];
-      put('kind', shown ? kindText(frames, i, tool) : '–');
+      put('kind', shown ? kindText(frames, i, tool, unit) : '–');
       put('line', shown ? placeText(drawing, frames, i) : '–');
-      const asked = shown ? feed(run.arrays.frameFeed[2 * i], unit) : '–';
+      const asked = !shown ? '–' : askedText(run, frames, i, unit);
       put('feed', `${feed(gotFeed(run, pulses, at, clock.tick), unit)}, asked ${asked}`);
       put('position', ['x', 'y', 'z'].map((axis) => `${axis} ${length(at[axis], unit)}`).join('  ')
         + ` ${unitName(unit)}`);
@@ -52,9 +53,15 @@ export function createReadout(list, store, clock) {
   };
 }
 
-function kindText(frames, i, tool) {
+// A control runs a rapid move as fast as it can, so the feed in the description means nothing.
+function askedText(run, frames, i, unit) {
+  const isRapid = frames.info[5 * i] === RAPID && !run.header.pulsed;
+  return isRapid ? 'rapid' : feed(run.arrays.frameFeed[2 * i], unit);
+}
+
+function kindText(frames, i, tool, unit) {
   const braking = frames.info[5 * i + 4] === 1 ? ', braking' : '';
-  const name = tool ? `; ${tool.name || tool.kind}` : '';
+  const name = tool ? `; ${toolName(tool, unit)}` : '';
   return (KIND_NAMES[frames.info[5 * i]] ?? '?') + braking + name;
 }
 
@@ -74,7 +81,8 @@ function gotFeed(run, pulses, at, tick) {
 }
 
 function axesText(run, pulses, tick) {
-  if (!pulses?.samples) return '–';
+  // Without pulses nothing is known of the frequencies.
+  if (!run.header.pulsed || !pulses?.samples) return '–';
   const texts = run.header.axes.map((axis, k) => {
     if (!axis.pulse) return '';
     const value = sampleAt(pulses.arrays.sample, pulses.samples, 1 + k, tick);

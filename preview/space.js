@@ -148,9 +148,9 @@ function build({ space, store }) {
   const turned = header.turned && layers.contours;
   const used = s.frames ?? shown;
   replace(space, 'contours', 'makeLines', layers.contours
-    ? contourLines(drawing, bottom, parse(c.contour), parse(c.soft)) : null);
+    ? contourLines(drawing, parse(c.contour), parse(c.soft)) : null);
   replace(space, 'walls', 'makeFaces', layers.material && bottom < 0
-    ? walls(drawing, bottom) : null);
+    ? walls(drawing) : null);
   replace(space, 'surface', 'makeFaces', turned ? turnedSurface(drawing) : null);
   replace(space, 'box', 'makeLines', layers.grid ? boxLines(extents(s), parse(c.edge)) : null);
   space.shown = shown ? pathLines(shown, painter(shown, s.colour, header), layers) : null;

@@ -105,10 +105,11 @@ export function painter(path, by, header) {
   return base;
 }
 
-function toolName(tool, header) {
-  const size = tool.kind === 'turning' ? `nose ${length(tool.radius, header.unit)}`
-    : `\u2300 ${length(2 * tool.radius, header.unit)}`;
-  return `${tool.kind} ${size} ${unitName(header.unit)}`;
+/** Name of a tool with its size in the program's unit. */
+export function toolName(tool, unit) {
+  const size = tool.kind === 'turning' ? `nose ${length(tool.radius, unit)}`
+    : `\u2300 ${length(2 * tool.radius, unit)}`;
+  return `${tool.kind} ${size} ${unitName(unit)}`;
 }
 
 // Kinds of the parts of a path, found once.
@@ -128,8 +129,8 @@ function byTool(path, base, header, c) {
       : path.info[5 * i]),
     colour: (bin) => (bin >= 3 ? c.tools[bin - 3] : base.colour(bin)),
     title: 'Tools',
-    legend: [...header.tools.map((tool, k) => [c.tools[k % count], false, toolName(tool, header)]),
-      ...base.legend.slice(1)],
+    legend: [...header.tools.map((tool, k) => [c.tools[k % count], false,
+      toolName(tool, header.unit)]), ...base.legend.slice(1)],
   };
 }
 

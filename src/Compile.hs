@@ -21,6 +21,7 @@ module Compile
     check,
     checkedFrames,
     checkEvaluated,
+    makeTape,
     punch,
     Punched (..),
     prove,

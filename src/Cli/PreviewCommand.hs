@@ -30,11 +30,18 @@ import Preview.Server qualified as Server
 import Preview.Subject (Sound (..), TapeState (..))
 import Preview.Subject qualified as Subject
 import Project.LoadedProgram qualified as LoadedProgram
+import Project.MachineDescription qualified as MachineDescription
 import Report.Report (Report)
 import System.Directory (findExecutable)
 import System.Environment (lookupEnv)
 import System.FilePath (takeExtension)
-import System.Posix.Files (fileID, fileSize, getFileStatus, modificationTimeHiRes)
+import System.Posix.Files
+  ( fileID,
+    fileSize,
+    getFileStatus,
+    modificationTimeHiRes,
+    statusChangeTimeHiRes,
+  )
 import System.Posix.Types (FileID, FileOffset)
 import System.Process
   ( CreateProcess (std_err, std_in, std_out),
@@ -84,12 +91,13 @@ followProgram reporter options site = follow [file] $ do
     Right text -> do
       loaded <- loadText targets (displayName file) text
       pure
-        ( file : map Text.unpack (LoadedProgram.files loaded),
+        ( file : map Text.unpack (described <> LoadedProgram.files loaded),
           Server.publish site (Subject.following values loaded)
         )
   where
     file = previewFile options
     targets = maybeToList (previewTarget options)
+    described = filter MachineDescription.isFileName targets
     values = Output.values (Output.settings reporter)
 
 -- | Shows a tape, and shows it again whenever its file changes.
@@ -119,16 +127,17 @@ follow first reading = traverse signed first >>= again
     wait known = do
       threadDelay 100000
       now <- traverse (signed . fst) known
-      if now == known then wait known else settled now
+      if now == known then wait known else settled patience now
     -- An editor may still be writing.
-    settled before = do
+    settled left before = do
       threadDelay 20000
       now <- traverse (signed . fst) before
-      if now == before then again now else settled now
+      if now == before || left == 0 then again now else settled (left - 1) now
+    patience = 25 :: Int
     signed file = (file,) <$> signatureOf file
 
 -- | Facts that change with a file; Nothing if there is no such file.
-type FileSignature = Maybe (FileID, FileOffset, POSIXTime)
+type FileSignature = Maybe (FileID, FileOffset, POSIXTime, POSIXTime)
 
 -- | Signature of a file at this moment.
 signatureOf :: FilePath -> IO FileSignature
@@ -136,7 +145,12 @@ signatureOf file = either (const Nothing :: IOException -> FileSignature) Just <
   where
     found = do
       status <- getFileStatus file
-      pure (fileID status, fileSize status, modificationTimeHiRes status)
+      pure
+        ( fileID status,
+          fileSize status,
+          modificationTimeHiRes status,
+          statusChangeTimeHiRes status
+        )
 
 -- Tapes -------------------------------------------------------------------------------------------
 

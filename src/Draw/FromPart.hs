@@ -94,11 +94,22 @@ scene part path =
     between = concatMap movesBetween (Toolpath.blocks path)
     along wanted = nubOrd [Toolpath.segment m | m <- between, wanted (Toolpath.pace m)]
 
--- | Contours that are drawn, each with the side on which its material lies.
-sidedContours :: Part -> [(Part.Contour, MaterialSide)]
-sidedContours part = [(c, materialSideOf millings c) | c <- drawnContours part]
+-- | Contours that are drawn, each with the side on which its material lies, and the lowest height
+-- at which it is milled.
+sidedContours :: Part -> [(Part.Contour, MaterialSide, Mm)]
+sidedContours part =
+  [(c, materialSideOf millings c, depthOf (millingsOf millings c)) | c <- drawnContours part]
   where
     millings = millingsByStart part
+    depthOf of' = minimum (Mm 0 : concatMap heightsOf of')
+    heightsOf m = Part.levels m <> mapMaybe Part.level (Part.approach m)
+
+-- | Millings of a contour, among those that the result of 'millingsByStart' has.
+millingsOf :: Map Point [Milling] -> Part.Contour -> [Milling]
+millingsOf millings c =
+  filter
+    (\m -> Part.polyarcOf (contour m) == Part.polyarcOf c)
+    (Map.findWithDefault [] (beginning c) millings)
 
 -- | Millings of a part, in order, by the first points of their contours.
 millingsByStart :: Part -> Map Point [Milling]
@@ -284,12 +295,7 @@ shapeOf millings c =
 -- argument is the result of 'millingsByStart'.
 materialSideOf :: Map Point [Milling] -> Part.Contour -> MaterialSide
 materialSideOf millings c =
-  case mapMaybe
-    sideOf
-    ( filter
-        (\m -> Part.polyarcOf (contour m) == bare)
-        (Map.findWithDefault [] (beginning c) millings)
-    ) of
+  case mapMaybe sideOf (millingsOf millings c) of
     side : _
       | Part.ends c == Closed ->
         if (side == Carrier.LeftOf) == (Polyarc.signedArea bare > 0) then Outside else Inside

@@ -4,8 +4,8 @@ module Preview.Drawing
     segmentNumbers,
     toolsOf,
     ToolKey,
-    toolKey,
-    toolChanges,
+    toolIndex,
+    toolsOfBlocks,
   )
 where
 
@@ -28,6 +28,7 @@ import Geometry.Index.BoundingBox (BoundingBox (..))
 import Geometry.Index.BoundingBox qualified as BoundingBox
 import Geometry.Polyarc qualified as Polyarc
 import Geometry.Segment (Segment (..))
+import Geometry.Segment qualified as Segment
 import Geometry.Vec (Point)
 import Geometry.Vec qualified as Vec
 import Machine.BuiltIn qualified as BuiltIn
@@ -42,6 +43,7 @@ import Preview.ReportList (FileLines)
 import Preview.ReportList qualified as ReportList
 import Preview.Subject
 import Project.LoadedProgram (LoadedProgram (source))
+import Project.MachineDescription qualified as MachineDescription
 import Surface.Syntax qualified as Surface
 import Toolpath.Toolpath (Block (..), Move, Toolpath)
 import Toolpath.Toolpath qualified as Toolpath
@@ -108,7 +110,8 @@ programDrawing chosen ProgramState {loaded, part, path, points} =
       "unit" .= unitName (Toolpath.unit path),
       "turned" .= Toolpath.isTurned path,
       "files" .= ReportList.fileList (source loaded),
-      "machines" .= (map machineEntry BuiltIn.machines <> maybeToList (described part)),
+      "machines"
+        .= (map machineEntry BuiltIn.machines <> map describedEntry (describedFiles chosen part)),
       "machine" .= (chosen <|> fmap (referenceName . value) (Part.machine part)),
       "tools" .= map toolEntry tools,
       "points" .= map pointEntry points,
@@ -128,10 +131,10 @@ programDrawing chosen ProgramState {loaded, part, path, points} =
     known = ReportList.fileLines (source loaded)
     restSegments = concatMap Scene.around (Draw.restMaterialOf path)
     shapes = Draw.sidedContours part
-    elements = concatMap (NonEmpty.toList . Part.elements . fst) shapes
-    starts = scanl (+) 0 (map (NonEmpty.length . Part.elements . fst) shapes)
+    elements = concatMap (\(c, _, _) -> NonEmpty.toList (Part.elements c)) shapes
+    starts = scanl (+) 0 (map (\(c, _, _) -> NonEmpty.length (Part.elements c)) shapes)
     tools = toolsOf path
-    moves = movesOf tools path
+    moves = movesOf path
 
 titleOf :: Part -> Text
 titleOf part = fromMaybe (maybe "" Name.text (Part.name part)) (Part.title part)
@@ -149,11 +152,16 @@ machineEntry machine = object ["name" .= nameOf machine, "title" .= Machine.titl
 nameOf :: Machine -> Text
 nameOf machine = let MachineName name = Machine.name machine in name
 
--- | Entry for the machine of the program if its description is a file.
-described :: Part -> Maybe Value
-described part = case value <$> Part.machine part of
-  Just (Surface.Described file) -> Just (object ["name" .= file, "title" .= file])
-  _ -> Nothing
+-- | Files of descriptions that the command line and the program name.
+describedFiles :: Maybe Text -> Part -> [Text]
+describedFiles chosen part =
+  List.nub
+    ( filter MachineDescription.isFileName (maybeToList chosen)
+        <> [file | Just (Surface.Described file) <- [value <$> Part.machine part]]
+    )
+
+describedEntry :: Text -> Value
+describedEntry file = object ["name" .= file, "title" .= file]
 
 referenceName :: Surface.MachineRef -> Text
 referenceName reference = case reference of
@@ -170,15 +178,24 @@ toolsOf :: Toolpath -> [ToolKey]
 toolsOf path =
   List.nub
     ( map toolKey (maybeToList (Toolpath.firstCutter (Toolpath.setup path)))
-        <> map snd (toolChanges path)
+        <> [ toolKey cutter
+             | Commanding (Located _ (Part.ChangeTool _ cutter)) <- Toolpath.blocks path
+           ]
     )
 
--- | Tool changes of a toolpath in order: the region of the command, and the new tool.
-toolChanges :: Toolpath -> [(Region, ToolKey)]
-toolChanges path =
-  [ (region, toolKey cutter)
-    | Commanding (Located region (Part.ChangeTool _ cutter)) <- Toolpath.blocks path
-  ]
+-- | Index of the tool of each block, or −1; that of a tool change is the new tool.
+toolsOfBlocks :: Toolpath -> [Int]
+toolsOfBlocks path = snd (List.mapAccumL next first (Toolpath.blocks path))
+  where
+    first = maybe (-1) (toolIndex path) (Toolpath.firstCutter (Toolpath.setup path))
+    next tool block = case block of
+      Commanding (Located _ (Part.ChangeTool _ cutter)) ->
+        let new = toolIndex path cutter in (new, new)
+      _ -> (tool, tool)
+
+-- | Index of a tool in 'toolsOf', or −1.
+toolIndex :: Toolpath -> Part.Cutter -> Int
+toolIndex path cutter = fromMaybe (-1) (List.elemIndex (toolKey cutter) (toolsOf path))
 
 toolKey :: Part.Cutter -> ToolKey
 toolKey cutter = (Part.kind cutter, Part.cutterRadius cutter)
@@ -201,8 +218,8 @@ pointEntry :: (Name, Point) -> Value
 pointEntry (name, p) = object ["name" .= Name.text name, "x" .= Vec.x p, "y" .= Vec.y p]
 
 -- | Entry of a contour whose first segment has an index.
-contourEntry :: FileLines -> Int -> (Part.Contour, Scene.MaterialSide) -> Value
-contourEntry known from (contour, side) =
+contourEntry :: FileLines -> Int -> (Part.Contour, Scene.MaterialSide, Mm) -> Value
+contourEntry known from (contour, side, Mm depth) =
   object
     [ "name" .= Name.text (value (Part.contourName contour)),
       "closed" .= (Part.ends contour == Polyarc.Closed),
@@ -210,7 +227,8 @@ contourEntry known from (contour, side) =
       "count" .= NonEmpty.length (Part.elements contour),
       "file" .= file,
       "line" .= line,
-      "side" .= sideName side
+      "side" .= sideName side,
+      "depth" .= depth
     ]
   where
     (file, line) = ReportList.lineOf known (Region.region (Part.contourName contour))
@@ -243,30 +261,23 @@ data DrawnMove = DrawnMove
     isInLastPass :: Bool
   }
 
-movesOf :: [ToolKey] -> Toolpath -> [DrawnMove]
-movesOf tools path = concat (snd (List.mapAccumL ofBlock first (Toolpath.blocks path)))
+movesOf :: Toolpath -> [DrawnMove]
+movesOf path = concat (zipWith ofBlock (toolsOfBlocks path) (Toolpath.blocks path))
   where
-    first = maybe (-1) indexOf (Toolpath.firstCutter (Toolpath.setup path))
-    indexOf cutter = fromMaybe (-1) (List.elemIndex (toolKey cutter) tools)
     isFinal = Draw.isLastPass path
     ofBlock tool block = case block of
-      Commanding (Located _ (Part.ChangeTool _ cutter)) -> (indexOf cutter, [])
-      Commanding _ -> (tool, [])
-      Travelling _ _ moves -> (tool, map (linking tool True) moves)
-      Holing _ moves -> (tool, [DrawnMove m (Toolpath.pace m /= Part.Rapid) tool True | m <- moves])
+      Commanding _ -> []
+      Travelling _ _ moves -> map (linking tool True) moves
+      Holing _ moves -> [DrawnMove m (Toolpath.pace m /= Part.Rapid) tool True | m <- moves]
       Cutting {pass, approach, cut, retract} ->
         let isLast = isFinal pass
-         in ( tool,
-              map (linking tool isLast) approach
-                <> [DrawnMove m True tool isLast | m <- NonEmpty.toList cut]
-                <> map (linking tool isLast) retract
-            )
+         in map (linking tool isLast) approach
+              <> [DrawnMove m True tool isLast | m <- NonEmpty.toList cut]
+              <> map (linking tool isLast) retract
       Clearing {approach, cleared, retract} ->
-        ( tool,
-          map (linking tool True) approach
-            <> [DrawnMove m (Draw.isCut m) tool True | m <- NonEmpty.toList cleared]
-            <> map (linking tool True) retract
-        )
+        map (linking tool True) approach
+          <> [DrawnMove m (Draw.isCut m) tool True | m <- NonEmpty.toList cleared]
+          <> map (linking tool True) retract
     linking tool isLast m = DrawnMove m False tool isLast
 
 -- | The seven numbers of a segment.
@@ -291,16 +302,19 @@ moveInfo known d = [kind, tool d, file, line, fromEnum (isInLastPass d)]
       | isCut d = 2
       | otherwise = 1
 
--- | Feed of a move in mm\/min, or in mm for one turn of the spindle; 0 for a rapid move.
+-- | Feed of a move in mm\/min; 0 for a rapid move, or if it is not known.
 feedOf :: Move -> Double
 feedOf m = case Toolpath.pace m of
   Part.Rapid -> 0
   Part.At (Located _ feed) -> case feed of
     CutFeed.PerMinute (Feed v) -> v
-    CutFeed.PerTurn (Mm v) _ -> v
+    CutFeed.PerTurn _ _ -> maybe 0 (\(Feed v) -> v) (CutFeed.perMinuteAt radius feed)
+  where
+    -- At a constant cutting speed, the feed where the move begins.
+    radius = Mm (abs (Vec.y (Segment.start (Toolpath.segment m))))
 
 -- | Extents of contours and moves along x, y and z; Nothing without any.
-extents :: [(Part.Contour, Scene.MaterialSide)] -> Toolpath -> Maybe [[Double]]
+extents :: [(Part.Contour, Scene.MaterialSide, Mm)] -> Toolpath -> Maybe [[Double]]
 extents shapes path = case map BoundingBox.ofSegment segments of
   [] -> Nothing
   b : bs ->
@@ -308,7 +322,7 @@ extents shapes path = case map BoundingBox.ofSegment segments of
      in Just [[left, right], [bottom, top], [minimum heights, maximum heights]]
   where
     segments =
-      [Part.segment e | (c, _) <- shapes, e <- NonEmpty.toList (Part.elements c)]
+      [Part.segment e | (c, _, _) <- shapes, e <- NonEmpty.toList (Part.elements c)]
         <> map Toolpath.segment moves
     moves = concatMap Toolpath.moves (Toolpath.blocks path)
     heights = 0 : [z | m <- moves, let (Mm a, Mm b) = Toolpath.heights m, z <- [a, b]]

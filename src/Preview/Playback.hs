@@ -33,6 +33,7 @@ import Preview.Subject qualified as Subject
 import Preview.TapeRun (FrameFact (FrameFact), TapeRun (..))
 import Preview.TapeRun qualified as TapeRun
 import Pulse.Controller qualified as Controller
+import Pulse.ControllerRun (StopReason (Unreadable))
 import Pulse.FramePath (FramePath (..))
 import Pulse.FramePath qualified as FramePath
 import Pulse.RunMeasure (FrameMeasure (..), RunTotal (..))
@@ -51,7 +52,7 @@ runContainer :: Followed -> TapeRun -> [Report] -> ByteString
 runContainer followed played reports = Container.encode members columns
   where
     members =
-      commonMembers followed played reports
+      commonMembers followed played (reports <> damages)
         <> [ "clock" .= fromMaybe 1 (Controller.ticksPerSecond (machine played)),
              "start" .= millimetresOf (machine played) (startOf played),
              "stop" .= maybe "" (StopText.stopText (machine played) . stopReason) total,
@@ -70,6 +71,9 @@ runContainer followed played reports = Container.encode members columns
         ("frameRow", Wholes (concatMap (rowNumbers (rowsOfFrames played)) frames)),
         ("tape", Octets (if isJust (text played) then "" else punchedRows))
       ]
+    damages = case stopReason <$> total of
+      Just (Unreadable damage) -> [Punch.toReport damage]
+      _ -> []
     uneven = unevenReason played total
     Tape punchedRows = rows played
     measured = measuresOf played

@@ -66,7 +66,8 @@ data Site = Site
     tapes :: MVar (Int, Map Text (Result Report Report TapeRun)),
     -- | held while the state changes
     publishing :: MVar (),
-    -- | count of open streams of events
+    -- | counts of open connections, and of open streams of events
+    connections :: TVar Int,
     streams :: TVar Int,
     -- | moves the cursor of the editor to a file of the state, a line and a column; Nothing without
     -- an editor
@@ -80,8 +81,9 @@ newSite showPlace now = do
   cursor <- newTVarIO (0, Nothing)
   tapes <- newMVar (version now, Map.empty)
   publishing <- newMVar ()
+  connections <- newTVarIO 0
   streams <- newTVarIO 0
-  pure Site {shown, cursor, tapes, publishing, streams, showPlace}
+  pure Site {shown, cursor, tapes, publishing, connections, streams, showPlace}
 
 -- | Changes the state; all open pages are told.
 publish :: Site -> (Followed -> Followed) -> IO ()
@@ -127,9 +129,23 @@ withServer wish site action = do
       Warp.setHost "127.0.0.1"
         . Warp.setServerName ""
         . Warp.setTimeout 30
+        . Warp.setHTTP2Disabled
+        -- More connections would use up the descriptors.
+        . Warp.setOnOpen (const (opened site 1 >>= \n -> pure (n <= mostConnections)))
+        . Warp.setOnClose (const (() <$ opened site (-1)))
         . Warp.setMaxTotalHeaderLength 16384
         . Warp.setOnException (\_ _ -> pure ())
         $ Warp.defaultSettings
+
+-- | Count of the open connections after a change of it.
+opened :: Site -> Int -> IO Int
+opened site change = atomically $ do
+  modifyTVar' (connections site) (+ change)
+  readTVar (connections site)
+
+-- | Greatest count of open connections. A page has one or two, and a browser opens at most six.
+mostConnections :: Int
+mostConnections = 48
 
 -- | Random token of 128 bits in hexadecimal digits.
 newToken :: IO Text
@@ -178,9 +194,9 @@ answer site now found = case found of
   Events -> pure (refused NotFound)
   ShowPlace -> pure (refused NotFound)
   where
-    runOf name made = case (errors made, output made) of
-      ([], Just played) -> Playback.runContainer now played (warnings made)
-      _ -> Playback.refusedContainer now name (errors made <> warnings made)
+    runOf name made = case output made of
+      Just played -> Playback.runContainer now played (errors made <> warnings made)
+      Nothing -> Playback.refusedContainer now name (errors made <> warnings made)
 
 -- | Pulses of a run. Two runs are made from two readings of the tape: one that is read twice would
 -- stay in memory as a whole.
@@ -197,10 +213,15 @@ tapeFor :: Site -> Followed -> Text -> IO (Result Report Report TapeRun)
 tapeFor site now name = modifyMVar (tapes site) $ \(of', known) ->
   let usable = if of' == version now then known else Map.empty
       made = Map.findWithDefault (maybe nothing (fromSound . snd) (sound now)) name usable
-   in pure ((version now, Map.insert name made usable), made)
+      kept = if Map.size usable < mostTapes then usable else Map.empty
+   in pure ((version now, Map.insert name made kept), made)
   where
     fromSound subject = TapeRun.fromSound subject name
     nothing = Result [] [] Nothing
+
+-- | Greatest count of tapes that are kept.
+mostTapes :: Int
+mostTapes = 16
 
 -- | Moves the cursor of the editor.
 placed :: Site -> Request -> IO Response

@@ -8,21 +8,23 @@ where
 
 import Base.LazyList qualified as LazyList
 import Base.PulseVector (Pulses3)
-import Base.Region (Region)
 import Base.Result (Result (..))
 import Compile (Punched (..))
 import Compile qualified
 import Control.Applicative ((<|>))
 import Data.ByteString qualified as ByteString
+import Data.IntMap.Strict (IntMap)
+import Data.IntMap.Strict qualified as IntMap
+import Data.List (zip4)
 import Data.List qualified as List
-import Data.Maybe (fromMaybe)
+import Data.Maybe (fromMaybe, listToMaybe)
 import Data.Text (Text)
 import Data.Text qualified as Text
 import Data.Text.Encoding qualified as Encoding
 import Data.Text.Encoding.Error qualified as Encoding
 import Data.Vector (Vector)
 import Data.Vector qualified as Vector
-import Frame.Frame (PlannedFrame (origin, role), Role (..))
+import Frame.Frame (PlannedFrame (cutterRadius, origin, role), Role (..))
 import Frame.Frame qualified as Frame
 import Gcode.Heading qualified as Heading
 import Gcode.ToFrames (readFrames, readFrom)
@@ -33,6 +35,7 @@ import Preview.Drawing qualified as Drawing
 import Preview.ReportList (FileLines)
 import Preview.ReportList qualified as ReportList
 import Preview.Subject
+import Project.Job (Verification (Verified))
 import Project.LoadedProgram (LoadedProgram (descriptions, source))
 import Project.Target qualified as Target
 import Pulse.Controller (Console)
@@ -81,7 +84,13 @@ fromSound subject name = case subject of
 ofProgram :: ProgramState -> Text -> Result Report Report TapeRun
 ofProgram ProgramState {loaded, part, path} name =
   Target.targets (descriptions loaded) [name] part path >>= \case
-    machine : _ -> withFrames loaded path machine <$> Compile.punch machine path
+    machine : _
+      | all (null . Toolpath.moves) (Toolpath.blocks path) ->
+        withFrames loaded path machine <$> Compile.punch machine path
+      | otherwise ->
+        -- The files of a modern control depend on the proof: it bounds the deviation at corners.
+        withFrames loaded path machine . Compile.punched
+          <$> Compile.makeTape Verified path machine
     [] -> Result [] [] Nothing
 
 withFrames :: LoadedProgram -> Toolpath -> Machine -> Punched -> TapeRun
@@ -128,24 +137,26 @@ plainText machine start tape@(Tape bytes) = case Machine.pitch (Machine.medium m
       (_, _ : others) -> n : linesOf n breaks others
       (_, []) -> []
 
--- | Facts of planned frames. The tool changes at the frame of a tool change.
+-- | Facts of planned frames. A pass and a block of drilling have the tool of their block. Between
+-- them, a frame has the next tool if that has the radius of its cutter, else the last one.
 frameFacts :: FileLines -> Toolpath -> [PlannedFrame] -> [FrameFact]
-frameFacts known path = snd . List.mapAccumL next (first, Drawing.toolChanges path)
+frameFacts known path planned = zipWith fact planned tools
   where
-    tools = Drawing.toolsOf path
-    indexOf key = fromMaybe (-1) (List.elemIndex key tools)
-    first = maybe (-1) (indexOf . Drawing.toolKey) (Toolpath.firstCutter (Toolpath.setup path))
-    next ::
-      (Int, [(Region, Drawing.ToolKey)]) ->
-      PlannedFrame ->
-      ((Int, [(Region, Drawing.ToolKey)]), FrameFact)
-    next (now, changes) planned = case (role planned, changes) of
-      (Commanding, (at, key) : more) | at == origin planned -> fact (indexOf key) more
-      _ -> fact now changes
-      where
-        fact tool left =
-          let (file, line) = ReportList.lineOf known (origin planned)
-           in ((tool, left), FrameFact {isCut = cuts (role planned), tool, file, line})
+    keys = Drawing.toolsOf path
+    (ofPasses, ofDrilling) = toolsOfBlocks path
+    own p = case role p of
+      Drilling n -> IntMap.lookup n ofDrilling
+      other -> Frame.passNumber other >>= (`IntMap.lookup` ofPasses)
+    laterTools = drop 1 (scanr (\p later -> own p <|> later) Nothing planned)
+    first = maybe (-1) (Drawing.toolIndex path) (Toolpath.firstCutter (Toolpath.setup path))
+    tools = snd (List.mapAccumL next first (zip planned laterTools))
+    next now (p, later) = let tool = fromMaybe (between now p later) (own p) in (tool, tool)
+    between now p later = case later of
+      Just tool | fmap snd (listToMaybe (drop tool keys)) == Just (cutterRadius p) -> tool
+      _ -> now
+    fact p tool =
+      let (file, line) = ReportList.lineOf known (origin p)
+       in FrameFact {isCut = cuts (role p), tool, file, line}
     cuts role' = case role' of
       Cutting _ -> True
       Drilling _ -> True
@@ -153,3 +164,18 @@ frameFacts known path = snd . List.mapAccumL next (first, Drawing.toolChanges pa
       Retracting _ -> False
       Linking -> False
       Commanding -> False
+
+-- | Tools of the passes by their numbers, and of the blocks of drilling by the numbers of the
+-- blocks.
+toolsOfBlocks :: Toolpath -> (IntMap Int, IntMap Int)
+toolsOfBlocks path =
+  ( IntMap.fromList [(pass, tool) | (tool, _, pass, b) <- inUse, isPass b],
+    IntMap.fromList [(n, tool) | (tool, n, _, Toolpath.Holing _ _) <- inUse]
+  )
+  where
+    blocks = Toolpath.blocks path
+    inUse = zip4 (Drawing.toolsOfBlocks path) [0 ..] (Toolpath.passNumbers blocks) blocks
+    isPass b = case b of
+      Toolpath.Cutting {} -> True
+      Toolpath.Clearing {} -> True
+      _ -> False

@@ -4,20 +4,26 @@ module Preview.PlaybackSpec
 where
 
 import Base.Quantity (Mm (..))
-import Command (partc)
+import Command (inFolder, partc)
 import Control.Monad (forM_)
 import Data.Aeson (FromJSON (parseJSON), Value (Null), decode, withObject, (.:))
-import Data.Bits (shiftR, (.&.))
+import Data.Bits (shiftR, xor, (.&.))
+import Data.ByteString qualified as ByteString
 import Data.ByteString.Lazy.Char8 qualified as Lines
+import Data.Containers.ListUtils (nubOrd)
 import Data.List (foldl')
 import Data.Maybe (mapMaybe)
 import Data.Text qualified as Text
+import Files (readText)
 import Machine.Machine qualified as Machine
 import Preview.Answer qualified as Answer
+import Preview.Drawing qualified as Drawing
 import Preview.Playback qualified as Playback
 import Preview.PulseColumns qualified as PulseColumns
 import Preview.TapeMeaning qualified as TapeMeaning
 import Preview.TapeRun qualified as TapeRun
+import System.FilePath ((</>))
+import Tape.Tape (Tape (Tape))
 import Test.Hspec
 
 spec :: Spec
@@ -83,6 +89,30 @@ spec = do
       forM_ rows $ \(a, b) -> do
         b `shouldBe` a + 1
         (text !! a) `shouldSatisfy` Text.any (`elem` ("GMTXYZIJ" :: String))
+    it "gives the file that partc compile writes" $
+      inFolder $ \folder -> do
+        followed <- Answer.followedFile cover
+        run <- Answer.running "linuxcnc-mill" followed
+        let answer = Answer.decode (Playback.runContainer followed run [])
+        _ <- partc ["compile", cover, "-t", "linuxcnc-mill", "-o", folder </> "cover.ngc"]
+        written <- readText (folder </> "cover.ngc")
+        (Answer.member "text" answer == written) `shouldBe` True
+    it "gives each frame the tool that makes it" $ do
+      followed <- Answer.followedFile cover
+      run <- Answer.running "linuxcnc-mill" followed
+      let answer = Answer.decode (Playback.runContainer followed run [])
+          cuts = [(tool, line) | [2, tool, _, line, _] <- fives (Answer.wholes "frameInfo" answer)]
+          drawn = Answer.decode (Drawing.container False followed)
+          moves = [(tool, line) | [2, tool, _, line, _] <- fives (Answer.wholes "moveInfo" drawn)]
+      nubOrd (map fst cuts) `shouldBe` [0, 1]
+      [c | c <- nubOrd cuts, c `notElem` moves] `shouldBe` []
+    it "says why a damaged tape stops" $ do
+      followed <- Answer.followedFile file
+      run <- Answer.running "n55" followed
+      let Tape bytes = TapeRun.rows run
+          damaged = run {TapeRun.rows = Tape (ByteString.map (xor 1) bytes)}
+          answer = Answer.decode (Playback.runContainer followed damaged [])
+      length (Answer.member "reports" answer :: [Value]) `shouldBe` 1
   describe "the answer `rows`" $
     it "gives every row of the tape a meaning" $ do
       followed <- Answer.followedFile file
@@ -92,6 +122,7 @@ spec = do
       TapeMeaning.rowList run 0 1 `shouldNotBe` [Null]
   where
     file = "examples/flange.part"
+    cover = "examples/cnc/cover.part"
 
 shouldBeNear :: Double -> Double -> Expectation
 shouldBeNear a b = abs (a - b) `shouldSatisfy` (< 1e-9)

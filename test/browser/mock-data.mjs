@@ -262,7 +262,7 @@ export function drawing(version, mode, options = {}) {
       contour.push(...seg);
       places.push(0, line + 1 + Math.floor(i / 2));
     });
-    return { name, closed, from, count: segs.length, file: 0, line, side };
+    return { name, closed, from, count: segs.length, file: 0, line, side, depth: -8 };
   });
   const text = mode === 'changed' ? TEXT.replaceAll('120', '130') : TEXT;
   const files = [{ name: 'plate.part', text }, { name: 'shapes.part', text: IMPORT }];
