@@ -2,6 +2,7 @@
 -- a renderer, which is another program on this computer.
 module Cli.DrawingFile
   ( writeDrawing,
+    writePages,
   )
 where
 
@@ -11,6 +12,7 @@ import Cli.Output (Exit, Reporter)
 import Cli.OutputFile (writeBytes, writeText)
 import Cli.Progress qualified as Progress
 import Control.Exception (IOException, bracket, try)
+import Control.Monad (zipWithM_)
 import Data.ByteString (ByteString)
 import Data.ByteString qualified as ByteString
 import Data.Char (toLower)
@@ -35,13 +37,21 @@ data RenderedForm = Png | Pdf
 -- name of the file determines its form. @name@ is the program's name in reports. @sources@ are the
 -- files that must not be replaced.
 writeDrawing :: Reporter -> Text -> [FilePath] -> Maybe FilePath -> Text -> IO Exit
-writeDrawing reporter name sources wanted svg = case wanted of
+writeDrawing reporter name sources wanted svg = writePages reporter name sources wanted svg [svg]
+
+-- | Does the same for a drawing of several pages, which are pages of their own in a PDF. @whole@
+-- has all of them, one below the other.
+writePages :: Reporter -> Text -> [FilePath] -> Maybe FilePath -> Text -> [Text] -> IO Exit
+writePages reporter name sources wanted whole pages = case wanted of
   Just path | Just form <- formOf path -> do
-    rendered <- Progress.during ("converting " <> Text.pack path) (render form svg)
+    let drawings = case form of
+          Pdf -> pages
+          Png -> [whole]
+    rendered <- Progress.during ("converting " <> Text.pack path) (render form drawings)
     case rendered of
       Left e -> failWith reporter name e
       Right bytes -> writeBytes reporter name sources path bytes
-  _ -> writeText reporter name sources wanted svg
+  _ -> writeText reporter name sources wanted whole
 
 -- | Form of a file by the ending of its name; nothing for SVG.
 formOf :: FilePath -> Maybe RenderedForm
@@ -50,17 +60,19 @@ formOf path = case map toLower (takeExtension path) of
   ".pdf" -> Just Pdf
   _ -> Nothing
 
--- | Converts a drawing by the first renderer that can do it.
-render :: RenderedForm -> Text -> IO (Either Error ByteString)
-render form svg = do
+-- | Converts the pages of a drawing by the first renderer that can do it.
+render :: RenderedForm -> [Text] -> IO (Either Error ByteString)
+render form drawings = do
   result <- try (bracket folder removeDirectoryRecursive convert)
   pure (either failed id result)
   where
     folder = getTemporaryDirectory >>= \parent -> mkdtemp (parent </> "partc-")
     convert inside = do
-      ByteString.writeFile (inside </> "drawing.svg") (Encoding.encodeUtf8 svg)
-      ByteString.writeFile (inside </> "drawing.html") (Encoding.encodeUtf8 (framed svg))
-      attempt (outputOf form inside) Nothing (renderers form inside svg)
+      let files = [inside </> "drawing" <> n <> ".svg" | n <- "" : map show [2 .. length drawings]]
+      zipWithM_ (\file -> ByteString.writeFile file . Encoding.encodeUtf8) files drawings
+      ByteString.writeFile (inside </> "drawing.html") (Encoding.encodeUtf8 (framed drawings))
+      let first = Text.concat (take 1 drawings)
+      attempt (outputOf form inside) Nothing (renderers form inside files first)
     failed :: IOException -> Either Error ByteString
     failed = Left . RendererFails . Text.pack . show
 
@@ -95,17 +107,18 @@ outputOf form inside =
     Pdf -> "drawing.pdf"
 
 -- | Renderers, the preferred one first, with the arguments by which each converts the drawing in a
--- folder. The pixels of a PNG are 1/200 inch wide.
-renderers :: RenderedForm -> FilePath -> Text -> [(FilePath, [String])]
-renderers form inside svg =
-  [ ("rsvg-convert", ["--unlimited", "-d", "200", "-p", "200", "-f", word, "-o", out, source]),
-    ( "inkscape",
-      ["--export-type=" <> word, "--export-dpi=200", "--export-filename=" <> out, source]
-    ),
-    ("chromium", browser <> browserOutput <> ["file://" <> inside </> "drawing.html"])
+-- folder, whose pages are in these files. The pixels of a PNG are 1/200 inch wide. Inkscape makes
+-- one page only.
+renderers :: RenderedForm -> FilePath -> [FilePath] -> Text -> [(FilePath, [String])]
+renderers form inside files first =
+  ("rsvg-convert", ["--unlimited", "-d", "200", "-p", "200", "-f", word, "-o", out] <> files) :
+  [ ("inkscape", ["--export-type=" <> word, "--export-dpi=200", "--export-filename=" <> out, file])
+    | [file] <- [files]
   ]
+    <> [ ("chromium", browser <> browserOutput <> ["file://" <> inside </> "drawing.html"])
+       ]
   where
-    (source, out) = (inside </> "drawing.svg", outputOf form inside)
+    out = outputOf form inside
     word = drop 1 (takeExtension out)
     -- The browser shows nothing but this drawing, so it needs no sandbox. As root it would refuse
     -- to start with one.
@@ -117,20 +130,20 @@ renderers form inside svg =
           "--force-device-scale-factor=2.0833",
           "--window-size=" <> pixels "width" <> "," <> pixels "height"
         ]
-    pixels side = show (ceiling (millimetres side svg * 96 / 25.4) :: Int)
+    pixels side = show (ceiling (millimetres side first * 96 / 25.4) :: Int)
 
--- | Page of a browser that contains a drawing, without margins and in its true size.
-framed :: Text -> Text
-framed svg =
+-- | Page of a browser that contains the pages of a drawing, without margins and in their true size.
+framed :: [Text] -> Text
+framed drawings =
   "<!DOCTYPE html><html><head><meta charset=\"utf-8\"><style>@page { size: "
     <> size "width"
     <> " "
     <> size "height"
     <> "; margin: 0 } body { margin: 0 } svg { display: block }</style></head><body>"
-    <> snd (Text.breakOn "<svg" svg)
+    <> Text.concat (map (snd . Text.breakOn "<svg") drawings)
     <> "</body></html>"
   where
-    size side = Text.pack (show (millimetres side svg)) <> "mm"
+    size side = Text.pack (show (millimetres side (Text.concat (take 1 drawings)))) <> "mm"
 
 -- | Width or height of a drawing in mm.
 millimetres :: Text -> Text -> Double

@@ -11,7 +11,7 @@ import Base.Quantity (LengthUnit)
 import Base.Region qualified as Region
 import Base.Result (Result (..))
 import Base.Result qualified as Result
-import Cli.DrawingFile (writeDrawing)
+import Cli.DrawingFile (writeDrawing, writePages)
 import Cli.Error (Error (..), Warning (..))
 import Cli.Error qualified as Cli
 import Cli.FixCommand qualified as FixCommand
@@ -445,10 +445,17 @@ drawSheet reporter target range material path tapeFile =
         let numbered = zip [1 ..] (Tape.rows machine 0 read')
             (counted, count) = TapeRows.extent machine range (map snd numbered)
             title = Text.pack (takeFileName (Text.unpack (displayName tapeFile)))
-        case TapeSheet.sheet material machine title (TapeRows.chosen range numbered) of
+            chosen = TapeRows.chosen range numbered
+        case TapeSheet.sheet material machine title chosen of
           Nothing -> failWith reporter (displayName tapeFile) (NothingInRange counted count)
           Just drawing ->
-            writeDrawing reporter (displayName tapeFile) [tapeFile] (Just path) drawing
+            writePages
+              reporter
+              (displayName tapeFile)
+              [tapeFile]
+              (Just path)
+              drawing
+              (TapeSheet.pages material machine title chosen)
   where
     nameOf machine = let MachineName n = Machine.name machine in n
 

@@ -55,9 +55,11 @@ document page title layers =
   where
     size =
       Attribute.version "1.1"
-        <> Attribute.width (number (rightmost page) <> "mm")
-        <> Attribute.height (number (lower page) <> "mm")
-    viewBox = Attribute.viewbox (numbers [leftmost page, upper page, rightmost page, lower page])
+        <> Attribute.width (number across <> "mm")
+        <> Attribute.height (number down <> "mm")
+    viewBox = Attribute.viewbox (numbers [leftmost page, upper page, across, down])
+    across = rightmost page - leftmost page
+    down = lower page - upper page
     font = Attribute.fontFamily "Arial, Helvetica, sans-serif"
     heading = Svg.title (toSvg (printable title))
 

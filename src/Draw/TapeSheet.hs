@@ -15,6 +15,7 @@
 -- from row to row, are reconstructed.
 module Draw.TapeSheet
   ( sheet,
+    pages,
     TapeGeometry,
     TapeMaterial (..),
     geometryOf,
@@ -119,6 +120,15 @@ sheet material machine title rows =
     <$> geometryOf material (Machine.medium machine)
     <*> NonEmpty.nonEmpty rows
 
+-- | The pages of the drawing of 'sheet', each as a document.
+pages :: TapeMaterial -> Machine -> Text -> [(Int, Row)] -> [Text]
+pages material machine title rows =
+  case (geometryOf material (Machine.medium machine), NonEmpty.nonEmpty rows) of
+    (Just g, Just some) ->
+      let (pageCount, layers) = drawn machine title g some
+       in [Svg.document (pageArea k) title layers | k <- [1 .. pageCount]]
+    _ -> []
+
 -- Pages -------------------------------------------------------------------------------------------
 
 -- | Part of a tape on a page: its number from 1, its rows, and its upper left corner on the paper.
@@ -139,10 +149,15 @@ stripsBottom = 280
 
 document :: Machine -> Text -> TapeGeometry -> NonEmpty (Int, Row) -> Text
 document machine title g rows =
-  Svg.document
-    (Area 0 0 pageWidth (pageHeight * fromIntegral pageCount))
-    title
-    [ Svg.layer "pages" [Svg.rectangle (Pen "none" 0 []) "white" (pageArea k) | k <- pages],
+  Svg.document (Area 0 0 pageWidth (pageHeight * fromIntegral pageCount)) title layers
+  where
+    (pageCount, layers) = drawn machine title g rows
+
+-- | Count of the pages, and the layers of the drawing on all of them.
+drawn :: Machine -> Text -> TapeGeometry -> NonEmpty (Int, Row) -> (Int, [Svg])
+drawn machine title g rows =
+  ( pageCount,
+    [ Svg.layer "pages" [Svg.rectangle (Pen "none" 0 []) "white" (pageArea k) | k <- numbers],
       Svg.layer "paper" (map (paper g) strips),
       Svg.layer
         "perforations"
@@ -153,13 +168,14 @@ document machine title g rows =
       Svg.layer "cut-marks" (concatMap (cutMarks g) strips),
       Svg.layer "frames" (concatMap (frameMarks g) strips),
       Svg.layer "words" (concatMap (rowTexts g frameColumn) strips),
-      Svg.layer "title" (concatMap (pageTitle machine title g rows pageCount) pages)
+      Svg.layer "title" (concatMap (pageTitle machine title g rows pageCount) numbers)
     ]
+  )
   where
     ends s = (left s, top s, bottom g s)
     strips = arranged g (columnWidth g frameColumn rows) rows
     pageCount = maximum (1 : map pageOf strips)
-    pages = [1 .. pageCount]
+    numbers = [1 .. pageCount]
     pageOf s = 1 + floor (top s / pageHeight) :: Int
     frameNumbers = mapMaybe (frame . snd) (NonEmpty.toList rows)
     frameColumn = maximum (0 : map (wide . Decimal.whole) frameNumbers)

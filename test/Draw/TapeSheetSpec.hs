@@ -53,6 +53,12 @@ spec = describe "the drawing of a tape" $ do
     let svg = fromMaybe "" (TapeSheet.sheet Film lkp01f "tape" (zip [1 ..] (rowsOf lkp01f)))
     pointsOf "sprocket-holes" svg `shouldBe` []
     length (pointsOf "holes" svg) `shouldBe` length (pointsOf "holes" (drawing lkp01f))
+  it "has pages of A4, each with its part of the tape" $ do
+    let rows = concat (replicate 20 (rowsOf n55))
+        pages = TapeSheet.pages PaperTape n55 "tape" (zip [1 ..] rows)
+    length pages `shouldSatisfy` (> 1)
+    all ("height=\"297mm\"" `Text.isInfixOf`) pages `shouldBe` True
+    length (nubOrd pages) `shouldBe` length pages
   it "is only for punched tapes" $
     TapeSheet.sheet PaperTape iso6983 "text" (zip [1 ..] (rowsOf iso6983)) `shouldBe` Nothing
 
