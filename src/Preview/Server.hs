@@ -26,6 +26,7 @@ import Control.Concurrent.STM
     writeTVar,
   )
 import Control.Exception (IOException, bracket, bracket_, evaluate, try)
+import Control.Monad (void)
 import Data.Aeson (Value, object, withObject, (.:), (.=))
 import Data.Aeson qualified as Aeson
 import Data.Aeson.Types qualified as Aeson
@@ -132,7 +133,7 @@ withServer wish site action = do
         . Warp.setHTTP2Disabled
         -- More connections would use up the descriptors.
         . Warp.setOnOpen (const (opened site 1 >>= \n -> pure (n <= mostConnections)))
-        . Warp.setOnClose (const (() <$ opened site (-1)))
+        . Warp.setOnClose (const (void (opened site (-1))))
         . Warp.setMaxTotalHeaderLength 16384
         . Warp.setOnException (\_ _ -> pure ())
         $ Warp.defaultSettings
