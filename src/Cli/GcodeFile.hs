@@ -3,6 +3,7 @@ module Cli.GcodeFile
   ( GcodeFile (..),
     read,
     readAlone,
+    tapeAlone,
     listing,
     reports,
   )
@@ -19,6 +20,7 @@ import Data.Maybe (fromMaybe)
 import Data.Text (Text)
 import Data.Text qualified as Text
 import Draw.TapeRows (RowRange (..))
+import Frame.TurnFeed qualified as TurnFeed
 import Gcode.Block (Fault (..))
 import Gcode.FaultReport qualified as FaultReport
 import Gcode.Heading qualified as Heading
@@ -27,6 +29,8 @@ import Gcode.ToFrames (GcodeReading (..), ReadFrame (..))
 import Gcode.ToFrames qualified as ToFrames
 import Machine.Machine (Machine, ProgramForm)
 import Report.Report (Label (..), Report (others, place), ReportPlace (..))
+import Tape.Punch qualified as Tape
+import Tape.Tape (Tape)
 import Toolpath.Toolpath qualified as Toolpath
 import Verify.FromGcode qualified as FromGcode
 import Verify.Proof (Proof)
@@ -74,6 +78,15 @@ readAlone machine form file = case Run.run form Nothing 1 (fileText file) of
           ToFrames.stops = [],
           ToFrames.commandPlaces = []
         }
+
+-- | The tape that has the frames of a file alone, and what was read from the file. The file is read
+-- without its program.
+tapeAlone ::
+  Machine -> ProgramForm -> GcodeFile -> Either (Source, Report) (Tape, GcodeReading)
+tapeAlone machine form file = made <$> readAlone machine form file
+  where
+    made reading =
+      (Tape.write machine 0 (TurnFeed.perMinute machine 0 (FromGcode.framesRead reading)), reading)
 
 -- | Lines of a file in a range, each with its number and the frames that are read from it, and the
 -- unit of the range with the count of these units in the file.

@@ -21,7 +21,6 @@ import Control.Monad (unless, void, when)
 import Data.Maybe (catMaybes, listToMaybe, maybeToList)
 import Data.Text qualified as Text
 import Data.Time.Clock.POSIX (POSIXTime)
-import Frame.TurnFeed qualified as TurnFeed
 import Gcode.ToFrames qualified as ToFrames
 import Machine.Machine (Machine)
 import Machine.Machine qualified as Machine
@@ -34,7 +33,6 @@ import Project.MachineDescription qualified as MachineDescription
 import Report.Report (Report)
 import System.Directory (findExecutable)
 import System.Environment (lookupEnv)
-import System.FilePath (takeExtension)
 import System.Posix.Files
   ( fileID,
     fileSize,
@@ -49,15 +47,13 @@ import System.Process
     createProcess,
     proc,
   )
-import Tape.Punch qualified as Tape
 import Tape.Tape (Tape (..))
-import Verify.FromGcode qualified as FromGcode
 
 -- | Serves the page until the program is interrupted.
 preview :: Reporter -> PreviewOptions -> IO Exit
 preview reporter options
   | file == "-" = failWith reporter (displayName file) NothingToFollow
-  | takeExtension file == ".part" || LoadedProgram.isInputSheet file =
+  | LoadedProgram.isProgram file =
     readProgram file
       >>= either
         (failWith reporter (displayName file))
@@ -158,15 +154,13 @@ signatureOf file = either (const Nothing :: IOException -> FileSignature) Just <
 tapeAlone :: Machine -> FilePath -> Tape -> Either (Region.Source, Report) Sound
 tapeAlone machine file rows = case Machine.programForm machine of
   Nothing -> Right (of' rows Nothing)
-  Just form -> withFrames <$> GcodeFile.readAlone machine form gcode
+  Just form -> withFrames <$> GcodeFile.tapeAlone machine form gcode
   where
     text = TapeDifference.textOf rows
     gcode = GcodeFile.GcodeFile (displayName file) text
     of' aloneTape gcodeText = TapeAlone TapeState {tapeMachine = machine, aloneTape, gcodeText}
-    withFrames reading =
-      of'
-        (Tape.write machine 0 (TurnFeed.perMinute machine 0 (FromGcode.framesRead reading)))
-        (Just (text, map ToFrames.readFrom (ToFrames.readFrames reading)))
+    withFrames (made, reading) =
+      of' made (Just (text, map ToFrames.readFrom (ToFrames.readFrames reading)))
 
 -- Browser -----------------------------------------------------------------------------------------
 

@@ -42,7 +42,6 @@ import Draw.TimeColumn qualified as TimeColumn
 import Draw.Timeline qualified as Timeline
 import Frame.Frame (Frame, FrameProgram (plannedFrames))
 import Frame.Frame qualified as Frame
-import Frame.TurnFeed qualified as TurnFeed
 import Machine.Controller (Controller (..), IntegratorControl (override, switches))
 import Machine.Machine (Machine, MachineName (..))
 import Machine.Machine qualified as Machine
@@ -55,16 +54,15 @@ import Pulse.JobTimeline qualified as JobTimeline
 import Pulse.RunMeasure (FrameMeasure, RunTotal (stopReason, totalTicks))
 import Pulse.RunMeasure qualified as RunMeasure
 import Report.Report (Report)
-import System.FilePath (takeExtension, takeFileName)
+import System.FilePath (takeFileName)
 import Tape.Punch (TapeFrame (frameRead))
 import Tape.Punch qualified as Tape
 import Tape.Tape (Tape)
-import Verify.FromGcode qualified as FromGcode
 
 -- | Runs the tape of a program, or a tape.
 run :: Reporter -> RunOptions -> IO Exit
 run reporter options
-  | isProgram = withInput reporter file (maybeToList target) $ \given ->
+  | LoadedProgram.isProgram file = withInput reporter file (maybeToList target) $ \given ->
     whenSound reporter (name given) (source given) (onFirstMachine target given) $ \made ->
       let Punched {program, tape} = Compile.punched made
        in runTape
@@ -87,7 +85,6 @@ run reporter options
   where
     file = runInput options
     target = runTarget options
-    isProgram = takeExtension file == ".part" || LoadedProgram.isInputSheet file
     alone machine rows =
       RunSubject
         { tapeName = displayName file,
@@ -104,8 +101,8 @@ inFrames :: FilePath -> Machine -> Tape -> Either (Source, Report) Tape
 inFrames file machine rows = case Machine.programForm machine of
   Nothing -> Right rows
   Just form ->
-    Tape.write machine 0 . TurnFeed.perMinute machine 0 . FromGcode.framesRead
-      <$> GcodeFile.readAlone
+    fst
+      <$> GcodeFile.tapeAlone
         machine
         form
         (GcodeFile.GcodeFile (displayName file) (TapeDifference.textOf rows))

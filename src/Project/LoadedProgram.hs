@@ -9,6 +9,7 @@ module Project.LoadedProgram
     load,
     fromText,
     isInputSheet,
+    isProgram,
     withoutSurface,
   )
 where
@@ -110,6 +111,10 @@ fromText :: Text -> Text -> LoadedProgram
 fromText path text = runIdentity (load withoutFiles (Text.unpack path) text)
   where
     withoutFiles = Surface.byName (const (pure (Left "only one text is looked at")))
+
+-- | True if the file name means a program or an input sheet, and not a tape.
+isProgram :: FilePath -> Bool
+isProgram path = takeExtension path == ".part" || isInputSheet path
 
 -- | True if the file name means an input sheet, that is, if it ends in @.sheet@.
 isInputSheet :: FilePath -> Bool
