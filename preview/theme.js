@@ -109,7 +109,8 @@ export function painter(path, by, header) {
 export function toolName(tool, unit) {
   const size = tool.kind === 'turning' ? `nose ${length(tool.radius, unit)}`
     : `\u2300 ${length(2 * tool.radius, unit)}`;
-  return `${tool.kind} ${size} ${unitName(unit)}`;
+  const number = tool.number ? `T${tool.number} ` : '';
+  return `${number}${tool.kind} ${size} ${unitName(unit)}`;
 }
 
 // Kinds of the parts of a path, found once.

@@ -1,11 +1,6 @@
 -- | Part and toolpath as flat arrays for the page. The README of this folder describes them.
 module Preview.Drawing
   ( container,
-    segmentNumbers,
-    toolsOf,
-    ToolKey,
-    toolIndex,
-    toolsOfBlocks,
   )
 where
 
@@ -20,10 +15,12 @@ import Data.Aeson.Types (Pair)
 import Data.ByteString.Lazy (ByteString)
 import Data.List qualified as List
 import Data.List.NonEmpty qualified as NonEmpty
-import Data.Maybe (fromMaybe, maybeToList)
+import Data.Maybe (fromMaybe, isJust, maybeToList)
 import Data.Text (Text)
 import Draw.FromPart qualified as Draw
 import Draw.Scene qualified as Scene
+import Draw.ToolUse (ToolUse)
+import Draw.ToolUse qualified as ToolUse
 import Geometry.Index.BoundingBox (BoundingBox (..))
 import Geometry.Index.BoundingBox qualified as BoundingBox
 import Geometry.Polyarc qualified as Polyarc
@@ -54,51 +51,38 @@ container hasEditor followed = Container.encode (common <> subject) columns
   where
     (subject, columns) = case snd <$> sound followed of
       Just (SoundProgram state) -> programDrawing (chosenMachine followed) state
-      Just (TapeAlone state) -> (tapeDrawing (fileName followed) state, [])
-      Nothing -> (nothingDrawn (fileName followed), [])
+      Just (TapeAlone state) -> (withoutPart "tape" name (Just (tapeMachine state)), [])
+      Nothing -> (withoutPart "program" name Nothing, [])
+    name = fileName followed
     common =
       [ "version" .= version followed,
         "reports"
-          .= ReportList.reportList (fileName followed) (presentSource followed) (reports followed),
+          .= ReportList.reportList name (presentSource followed) (reports followed),
         "presentFiles" .= ReportList.fileList (presentSource followed),
         "present" .= (fmap fst (sound followed) == Just (version followed)),
-        "name" .= fileName followed,
+        "name" .= name,
         "editor" .= hasEditor
       ]
 
--- | Members of the header while there is no picture.
-nothingDrawn :: Text -> [Pair]
-nothingDrawn name =
-  [ "kind" .= ("program" :: Text),
-    "drawn" .= False,
-    "title" .= name,
+-- | Members of the header without a part: the kind of the subject, its title, and its machine if
+-- there is a picture of its frames.
+withoutPart :: Text -> Text -> Maybe Machine -> [Pair]
+withoutPart kind title machine =
+  [ "kind" .= kind,
+    "drawn" .= isJust machine,
+    "title" .= title,
     "unit" .= unitName Millimetres,
     "turned" .= False,
-    "files" .= ([] :: [Value]),
-    "machines" .= ([] :: [Value]),
-    "machine" .= (Nothing :: Maybe Text),
-    "tools" .= ([] :: [Value]),
-    "points" .= ([] :: [Value]),
-    "contours" .= ([] :: [Value]),
+    "files" .= none,
+    "machines" .= map machineEntry (maybeToList machine),
+    "machine" .= fmap nameOf machine,
+    "tools" .= none,
+    "points" .= none,
+    "contours" .= none,
     "extents" .= (Nothing :: Maybe Value)
   ]
-
--- | Members of the header for a tape without its program.
-tapeDrawing :: Text -> TapeState -> [Pair]
-tapeDrawing name state =
-  [ "kind" .= ("tape" :: Text),
-    "drawn" .= True,
-    "title" .= name,
-    "unit" .= unitName Millimetres,
-    "turned" .= False,
-    "files" .= ([] :: [Value]),
-    "machines" .= [machineEntry (tapeMachine state)],
-    "machine" .= nameOf (tapeMachine state),
-    "tools" .= ([] :: [Value]),
-    "points" .= ([] :: [Value]),
-    "contours" .= ([] :: [Value]),
-    "extents" .= (Nothing :: Maybe Value)
-  ]
+  where
+    none = [] :: [Value]
 
 -- | Members of the header and arrays of a program. The first argument is the machine that the
 -- command line names.
@@ -113,7 +97,7 @@ programDrawing chosen ProgramState {loaded, part, path, points} =
       "machines"
         .= (map machineEntry BuiltIn.machines <> map describedEntry (describedFiles chosen part)),
       "machine" .= (chosen <|> fmap (referenceName . value) (Part.machine part)),
-      "tools" .= map toolEntry tools,
+      "tools" .= map toolEntry (ToolUse.uses path),
       "points" .= map pointEntry points,
       "contours" .= zipWith (contourEntry known) starts shapes,
       "extents" .= extents shapes path
@@ -133,7 +117,6 @@ programDrawing chosen ProgramState {loaded, part, path, points} =
     shapes = Draw.sidedContours part
     elements = concatMap (\(c, _, _) -> NonEmpty.toList (Part.elements c)) shapes
     starts = scanl (+) 0 (map (\(c, _, _) -> NonEmpty.length (Part.elements c)) shapes)
-    tools = toolsOf path
     moves = movesOf path
 
 titleOf :: Part -> Text
@@ -170,38 +153,16 @@ referenceName reference = case reference of
 
 -- Tools -------------------------------------------------------------------------------------------
 
--- | Kind and radius of a tool, by which the page distinguishes tools.
-type ToolKey = (Part.CutterKind, Mm)
-
--- | Tools of a toolpath in the order of their first use.
-toolsOf :: Toolpath -> [ToolKey]
-toolsOf path =
-  List.nub
-    ( map toolKey (maybeToList (Toolpath.firstCutter (Toolpath.setup path)))
-        <> [ toolKey cutter
-             | Commanding (Located _ (Part.ChangeTool _ cutter)) <- Toolpath.blocks path
-           ]
-    )
-
--- | Index of the tool of each block, or −1; that of a tool change is the new tool.
-toolsOfBlocks :: Toolpath -> [Int]
-toolsOfBlocks path = snd (List.mapAccumL next first (Toolpath.blocks path))
+toolEntry :: ToolUse -> Value
+toolEntry tool =
+  object
+    [ "kind" .= kindName (Part.kind cutter),
+      "radius" .= radius,
+      "number" .= ToolUse.number tool
+    ]
   where
-    first = maybe (-1) (toolIndex path) (Toolpath.firstCutter (Toolpath.setup path))
-    next tool block = case block of
-      Commanding (Located _ (Part.ChangeTool _ cutter)) ->
-        let new = toolIndex path cutter in (new, new)
-      _ -> (tool, tool)
-
--- | Index of a tool in 'toolsOf', or −1.
-toolIndex :: Toolpath -> Part.Cutter -> Int
-toolIndex path cutter = fromMaybe (-1) (List.elemIndex (toolKey cutter) (toolsOf path))
-
-toolKey :: Part.Cutter -> ToolKey
-toolKey cutter = (Part.kind cutter, Part.cutterRadius cutter)
-
-toolEntry :: ToolKey -> Value
-toolEntry (kind, Mm radius) = object ["kind" .= kindName kind, "radius" .= radius]
+    cutter = ToolUse.cutter tool
+    Mm radius = Part.cutterRadius cutter
 
 kindName :: Part.CutterKind -> Text
 kindName kind = case kind of
@@ -262,10 +223,11 @@ data DrawnMove = DrawnMove
   }
 
 movesOf :: Toolpath -> [DrawnMove]
-movesOf path = concat (zipWith ofBlock (toolsOfBlocks path) (Toolpath.blocks path))
+movesOf path = concatMap ofBlock (ToolUse.blocksWithTools path)
   where
     isFinal = Draw.isLastPass path
-    ofBlock tool block = case block of
+    ofBlock (used, block) = movesWith (fromMaybe (-1) used) block
+    movesWith tool block = case block of
       Commanding _ -> []
       Travelling _ _ moves -> map (linking tool True) moves
       Holing _ moves -> [DrawnMove m (Toolpath.pace m /= Part.Rapid) tool True | m <- moves]

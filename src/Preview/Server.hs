@@ -161,9 +161,9 @@ application :: Door -> Site -> Application
 application door site request respond =
   case Guard.judge door (askedIn request) of
     Left refusal -> respond (refused refusal)
-    Right Events -> respond =<< eventStream site
-    Right ShowPlace -> placed site request >>= respond
-    Right found -> readTVarIO (shown site) >>= \now -> answer site now found >>= respond
+    Right found -> do
+      now <- present site
+      answer site now request found >>= respond
 
 askedIn :: Request -> Asked
 askedIn request =
@@ -181,9 +181,9 @@ askedIn request =
   where
     header name = lookup name (Wai.requestHeaders request)
 
--- | Answer to a request that only reads.
-answer :: Site -> Followed -> Resource -> IO Response
-answer site now found = case found of
+-- | Answer to a request that is accepted.
+answer :: Site -> Followed -> Request -> Resource -> IO Response
+answer site now request found = case found of
   PageFile name -> pure (maybe (refused NotFound) (uncurry pageFile) (Page.find name))
   Drawing -> container (Drawing.container (isJust (showPlace site)) now)
   Run name -> tapeFor site now name >>= container . runOf name
@@ -192,8 +192,8 @@ answer site now found = case found of
     made <- tapeFor site now name
     let list = maybe [] (\played -> TapeMeaning.rowList played from to) (output made)
     pure (json (Aeson.toJSON list))
-  Events -> pure (refused NotFound)
-  ShowPlace -> pure (refused NotFound)
+  Events -> eventStream site
+  ShowPlace -> placed site now request
   where
     runOf name made = case output made of
       Just played -> Playback.runContainer now played (errors made <> warnings made)
@@ -225,15 +225,14 @@ mostTapes :: Int
 mostTapes = 16
 
 -- | Moves the cursor of the editor.
-placed :: Site -> Request -> IO Response
-placed site request = case showPlace site of
+placed :: Site -> Followed -> Request -> IO Response
+placed site now request = case showPlace site of
   Nothing -> pure (refused NotFound)
   Just move -> do
     body <- bodyOf request
     case Aeson.decodeStrict body >>= Aeson.parseMaybe place of
       Nothing -> pure (refused BadQuery)
       Just (file, line, column) -> do
-        now <- present site
         move now file line column
         pure (Wai.responseLBS Http.noContent204 common "")
   where

@@ -1,7 +1,6 @@
 -- | Answer to the request @rows@: the meanings of rows of a tape.
 module Preview.TapeMeaning
   ( rowList,
-    mostRows,
   )
 where
 

@@ -15,7 +15,6 @@ import Control.Applicative ((<|>))
 import Data.ByteString qualified as ByteString
 import Data.IntMap.Strict (IntMap)
 import Data.IntMap.Strict qualified as IntMap
-import Data.List (zip4)
 import Data.List qualified as List
 import Data.Maybe (fromMaybe, listToMaybe)
 import Data.Text (Text)
@@ -24,6 +23,7 @@ import Data.Text.Encoding qualified as Encoding
 import Data.Text.Encoding.Error qualified as Encoding
 import Data.Vector (Vector)
 import Data.Vector qualified as Vector
+import Draw.ToolUse qualified as ToolUse
 import Frame.Frame (PlannedFrame (cutterRadius, origin, role), Role (..))
 import Frame.Frame qualified as Frame
 import Gcode.Heading qualified as Heading
@@ -31,7 +31,7 @@ import Gcode.ToFrames (readFrames, readFrom)
 import Gcode.Writer qualified as Writer
 import Machine.Machine (Machine)
 import Machine.Machine qualified as Machine
-import Preview.Drawing qualified as Drawing
+import Part.Part qualified as Part
 import Preview.ReportList (FileLines)
 import Preview.ReportList qualified as ReportList
 import Preview.Subject
@@ -142,17 +142,16 @@ plainText machine start tape@(Tape bytes) = case Machine.pitch (Machine.medium m
 frameFacts :: FileLines -> Toolpath -> [PlannedFrame] -> [FrameFact]
 frameFacts known path planned = zipWith fact planned tools
   where
-    keys = Drawing.toolsOf path
+    radii = map (Part.cutterRadius . ToolUse.cutter) (ToolUse.uses path)
     (ofPasses, ofDrilling) = toolsOfBlocks path
     own p = case role p of
       Drilling n -> IntMap.lookup n ofDrilling
       other -> Frame.passNumber other >>= (`IntMap.lookup` ofPasses)
     laterTools = drop 1 (scanr (\p later -> own p <|> later) Nothing planned)
-    first = maybe (-1) (Drawing.toolIndex path) (Toolpath.firstCutter (Toolpath.setup path))
-    tools = snd (List.mapAccumL next first (zip planned laterTools))
+    tools = snd (List.mapAccumL next (-1) (zip planned laterTools))
     next now (p, later) = let tool = fromMaybe (between now p later) (own p) in (tool, tool)
     between now p later = case later of
-      Just tool | fmap snd (listToMaybe (drop tool keys)) == Just (cutterRadius p) -> tool
+      Just tool | now < 0 || listToMaybe (drop tool radii) == Just (cutterRadius p) -> tool
       _ -> now
     fact p tool =
       let (file, line) = ReportList.lineOf known (origin p)
@@ -169,13 +168,18 @@ frameFacts known path planned = zipWith fact planned tools
 -- blocks.
 toolsOfBlocks :: Toolpath -> (IntMap Int, IntMap Int)
 toolsOfBlocks path =
-  ( IntMap.fromList [(pass, tool) | (tool, _, pass, b) <- inUse, isPass b],
-    IntMap.fromList [(n, tool) | (tool, n, _, Toolpath.Holing _ _) <- inUse]
+  ( IntMap.fromList [(pass, tool) | ((Just tool, b), _, pass) <- inUse, isPass b],
+    IntMap.fromList [(n, tool) | ((Just tool, Toolpath.Holing _ _), n, _) <- inUse]
   )
   where
-    blocks = Toolpath.blocks path
-    inUse = zip4 (Drawing.toolsOfBlocks path) [0 ..] (Toolpath.passNumbers blocks) blocks
+    inUse =
+      zip3
+        (ToolUse.blocksWithTools path)
+        [0 ..]
+        (Toolpath.passNumbers (Toolpath.blocks path))
     isPass b = case b of
       Toolpath.Cutting {} -> True
       Toolpath.Clearing {} -> True
-      _ -> False
+      Toolpath.Travelling {} -> False
+      Toolpath.Holing _ _ -> False
+      Toolpath.Commanding _ -> False
