@@ -10,7 +10,6 @@ import Base.Quantity (Feed (..), Mm (..), Seconds (..), total, travelTime)
 import Base.Region (Located (..))
 import Frame.FeedCode qualified as FeedCode
 import Geometry.Segment qualified as Segment
-import Geometry.Vec qualified as Vec
 import Machine.Machine (Machine)
 import Part.CutFeed qualified as CutFeed
 import Part.Part (Command (Dwell), Pace (..))
@@ -23,15 +22,14 @@ import Toolpath.Toolpath qualified as Toolpath
 moveTime :: Maybe Machine -> Move -> Seconds
 moveTime machine move = maybe (Seconds 0) (travelTime (moveLength move)) (feedOf (pace move))
   where
-    -- On a lathe y is the distance from the axis.
-    radius = Mm (abs (Vec.y (Segment.at 0.5 (segment move))))
     feedOf p = case (p, machine) of
       (Rapid, Nothing) -> Nothing
       (Rapid, Just m) -> case FeedCode.rapidFeed m of
         Feed 0 -> Nothing
         feed -> Just feed
-      (At (Located _ v), Nothing) -> CutFeed.perMinuteAt radius v
-      (At (Located _ v), Just m) -> FeedCode.expectedFeed m <$> CutFeed.perMinuteAt radius v
+      (At (Located _ v), Nothing) -> CutFeed.perMinuteAlong (segment move) v
+      (At (Located _ v), Just m) ->
+        FeedCode.expectedFeed m <$> CutFeed.perMinuteAlong (segment move) v
 
 -- | The time of all moves and dwells of a toolpath. A stop counts as 0 s.
 pathTime :: Maybe Machine -> Toolpath -> Seconds

@@ -1,18 +1,16 @@
 -- | Frames with feeds per minute in place of feeds for one turn of the spindle, for estimates of
--- times and for models of controllers. The spindle is taken to have the same speed along the whole
--- frame: at a constant cutting speed, that in the middle between the radii at the two ends.
+-- times and for models of controllers. A frame has one feed: at a constant cutting speed, that with
+-- which it takes the same time.
 module Frame.TurnFeed
   ( perMinute,
   )
 where
 
 import Base.PulseVector (Pulses3)
-import Base.Quantity (Mm (..))
 import Data.List (mapAccumL)
 import Data.Maybe (fromMaybe)
 import Frame.Frame (Frame (..))
 import Frame.Frame qualified as Frame
-import Geometry.Vec qualified as Vec
 import Machine.Machine
   ( CommandValue (..),
     CommandWord (..),
@@ -32,7 +30,7 @@ perMinute machine begin frames = snd (mapAccumL next (begin, NoRate) frames)
     next (at, rate) f =
       let end = at + increment f
           rate' = fromMaybe rate (rateIn machine f)
-          turns = CutFeed.turnsAt (meanRadius machine at end) rate'
+          turns = CutFeed.turnsAlong (Frame.segment machine at f) rate'
           code = maybe (feedCode f) (inMinutes turns) (Machine.forTurn machine (feedCode f))
        in at `seq` ((end, rate'), f {feedCode = code})
     inMinutes turns d = codeFor machine (turns * d)
@@ -44,12 +42,6 @@ codeFor machine v = case Machine.choose machine v of
   NoSuchFeed low high -> case Machine.choose machine (if v < low then low else high) of
     Given code _ -> code
     NoSuchFeed _ _ -> fst (Machine.slowest machine)
-
--- | Radius in the middle between two positions: y is the distance from the axis of the spindle.
-meanRadius :: Machine -> Pulses3 -> Pulses3 -> Mm
-meanRadius machine a b = Mm (abs (radius a + radius b) / 2)
-  where
-    radius = Vec.y . Frame.position machine
 
 -- | Rate at which the spindle turns after the commands of a frame.
 rateIn :: Machine -> Frame -> Maybe SpindleRate

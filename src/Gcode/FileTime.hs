@@ -1,4 +1,5 @@
--- | The time that the frames of a file take at their feeds, without dwells and accelerations.
+-- | The time that the frames of a file take at their feeds, with their dwells. It does not contain
+-- accelerations, the start of the spindle, changes of the tool and stops.
 module Gcode.FileTime
   ( timeOf,
     timeText,
@@ -25,8 +26,9 @@ timeOf machine begin = snd . foldl' add (begin, Seconds 0) . TurnFeed.perMinute 
   where
     add (at, Seconds t) f =
       let end = at + increment f
-          Seconds more = if Frame.isMoving f then frameTime at end f else Seconds 0
-       in at `seq` (end, Seconds (t + more))
+          Seconds moving = if Frame.isMoving f then frameTime at end f else Seconds 0
+          Seconds still = Machine.dwellIn machine (commands f)
+       in at `seq` (end, Seconds (t + moving + still))
     frameTime at end f =
       let Mm flat = Segment.length (Frame.segment machine at f)
           Mm rise = minus (Frame.height machine end) (Frame.height machine at)

@@ -50,6 +50,7 @@ module Machine.Machine
     centreCapacity,
     commandCapacity,
     commandDecimals,
+    dwellIn,
     canEncode,
     contentName,
     hasRapidMotion,
@@ -99,7 +100,7 @@ module Machine.Machine
   )
 where
 
-import Base.Quantity (LengthUnit (..), Mm (..), Pulses (..), millimetresIn)
+import Base.Quantity (LengthUnit (..), Mm (..), Pulses (..), Seconds (..), millimetresIn)
 import Data.List (foldl')
 import Data.List.NonEmpty (NonEmpty (..))
 import Data.List.NonEmpty qualified as NonEmpty
@@ -360,6 +361,23 @@ commandCapacity machine command =
 commandDecimals :: Machine -> CommandName -> Int
 commandDecimals machine command =
   maximum (0 : [decimals (form w) | w <- wordsOf machine, content w == Command command])
+
+-- | Time for which the commands of a frame let the axes stand still.
+dwellIn :: Machine -> [(CommandName, Int)] -> Seconds
+dwellIn machine given =
+  Seconds
+    ( sum
+        [ fromIntegral n / units / 10 ^ commandDecimals machine commandName
+          | CommandWord {commandName, value} <- dwell (commandWords machine),
+            Just units <- [unitsInSecond value],
+            Just n <- [lookup commandName given]
+        ]
+    )
+  where
+    unitsInSecond v = case v of
+      InSeconds -> Just 1
+      InMilliseconds -> Just 1000
+      _ -> Nothing
 
 -- | True if a frame can give the command @command@ with the number @v@. Bits, and a word that is
 -- also in frames without the command, are 0 if there is no command. Therefore a command with the

@@ -4,12 +4,15 @@ module Part.CutFeed
     SpindleRate (..),
     atRate,
     perMinute,
-    perMinuteAt,
-    turnsAt,
+    perMinuteAlong,
+    turnsAlong,
   )
 where
 
 import Base.Quantity (Feed (..), Mm (..))
+import Geometry.Segment (Segment)
+import Geometry.Segment qualified as Segment
+import Geometry.Vec qualified as Vec
 
 data CutFeed
   = PerMinute Feed
@@ -41,20 +44,31 @@ perMinute f = case f of
   PerTurn _ (CuttingSpeed _ _) -> Nothing
   PerTurn _ NoRate -> Nothing
 
--- | The feed in mm\/min of a cut at a distance from the axis of the spindle; Nothing if it is not
--- known.
-perMinuteAt :: Mm -> CutFeed -> Maybe Feed
-perMinuteAt radius f = case f of
+-- | The mean feed in mm\/min of a cut along a segment whose y is the distance from the axis of the
+-- spindle: the length of the segment, divided by the time of the cut. Nothing if it is not known.
+perMinuteAlong :: Segment -> CutFeed -> Maybe Feed
+perMinuteAlong s f = case f of
   PerMinute v -> Just v
   PerTurn _ NoRate -> Nothing
-  PerTurn (Mm d) rate -> Just (Feed (d * turnsAt radius rate))
+  PerTurn (Mm d) rate -> Just (Feed (d * turnsAlong s rate))
 
--- | The turns of the spindle per minute while the tool is at a distance from the axis; 0 if they
+-- | The mean turns of the spindle per minute along a segment, for a feed for one turn; 0 if they
 -- are not known.
-turnsAt :: Mm -> SpindleRate -> Double
-turnsAt (Mm radius) rate = case rate of
+--
+-- At the radius r the spindle makes n(r) turns per minute. A cut with d mm for each turn takes the
+-- time ∫ ds \/ (d · n(r)), so the mean is 1 \/ mean(1 \/ n(r)). It is taken at 'radiusSamples' points
+-- at equal distances along the segment.
+turnsAlong :: Segment -> SpindleRate -> Double
+turnsAlong s rate = case rate of
   NoRate -> 0
   TurnsPerMinute n -> n
-  CuttingSpeed v limit
-    | radius > 0 -> min limit (v / (2 * pi * radius))
-    | otherwise -> limit
+  CuttingSpeed v limit ->
+    fromIntegral radiusSamples / sum [max (1 / limit) (2 * pi * radius k / v) | k <- points]
+  where
+    points = [0 .. radiusSamples - 1]
+    radius k = abs (Vec.y (Segment.at ((fromIntegral k + 0.5) / fromIntegral radiusSamples) s))
+
+-- | Points of a segment at which its distance from the axis is taken. On a straight segment the
+-- mean is exact, except for the part in which the limit of the turns is reached.
+radiusSamples :: Int
+radiusSamples = 32

@@ -25,7 +25,6 @@ import Geometry.Index.BoundingBox (BoundingBox (..))
 import Geometry.Index.BoundingBox qualified as BoundingBox
 import Geometry.Polyarc qualified as Polyarc
 import Geometry.Segment (Segment (..))
-import Geometry.Segment qualified as Segment
 import Geometry.Vec (Point)
 import Geometry.Vec qualified as Vec
 import Machine.BuiltIn qualified as BuiltIn
@@ -264,16 +263,12 @@ moveInfo known d = [kind, tool d, file, line, fromEnum (isInLastPass d)]
       | isCut d = 2
       | otherwise = 1
 
--- | Feed of a move in mm\/min; 0 for a rapid move, or if it is not known.
+-- | Mean feed of a move in mm\/min; 0 for a rapid move, or if it is not known.
 feedOf :: Move -> Double
 feedOf m = case Toolpath.pace m of
   Part.Rapid -> 0
-  Part.At (Located _ feed) -> case feed of
-    CutFeed.PerMinute (Feed v) -> v
-    CutFeed.PerTurn _ _ -> maybe 0 (\(Feed v) -> v) (CutFeed.perMinuteAt radius feed)
-  where
-    -- At a constant cutting speed, the feed where the move begins.
-    radius = Mm (abs (Vec.y (Segment.start (Toolpath.segment m))))
+  Part.At (Located _ feed) ->
+    maybe 0 (\(Feed v) -> v) (CutFeed.perMinuteAlong (Toolpath.segment m) feed)
 
 -- | Extents of contours and moves along x, y and z; Nothing without any.
 extents :: [(Part.Contour, Scene.MaterialSide, Mm)] -> Toolpath -> Maybe [[Double]]

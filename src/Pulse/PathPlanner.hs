@@ -3,7 +3,7 @@
 -- On a path of length L with the feed v and the acceleration a, the speed grows to u = min(v,
 -- √(a·L)) and falls again. With an exact stop the frame takes L\/u + u\/a. With blending, the next
 -- frame begins when the present one starts to decelerate, u\/a earlier. A frame without motion
--- ends the blending.
+-- ends the blending. A dwell takes its time.
 --
 -- On an arc of radius r, half of the acceleration is kept for the change of direction: the feed is
 -- at most √(a·r\/2), and the acceleration along the path is then √¾·a. At a lower feed it is
@@ -18,7 +18,7 @@ where
 
 import Base.LazyList (LazyList)
 import Base.LazyList qualified as LazyList
-import Base.Quantity (Mm (..))
+import Base.Quantity (Mm (..), Seconds (..))
 import Data.Maybe (fromMaybe)
 import Frame.Frame (Frame)
 import Frame.Frame qualified as Frame
@@ -86,7 +86,8 @@ timed machine control place f isFollowed = (m, place')
       Blending | isFollowed -> whole - braking
       Blending -> whole
       ExactStop -> whole
-    end = startsAt place + lasts
+    end = startsAt place + lasts + dwelt
+    Seconds dwelt = Machine.dwellIn machine (Frame.commands f)
     d = maybe (Pulses5 0 0 0 0 0) FramePath.endOf path
     place' =
       Place

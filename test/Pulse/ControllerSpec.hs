@@ -27,7 +27,7 @@ import Geometry.Vec qualified as Vec
 import Machine.Controller
 import Machine.Machine (CommandName (..), FeedCode (..), Machine)
 import Machine.Machine qualified as Machine
-import Machines (iso6983, kontur3p, lkiU, lkp01f, n55)
+import Machines (iso6983, kontur3p, lkiU, lkp01f, n55, named)
 import Part.Part qualified as Part
 import Pulse.Controller (Console (..))
 import Pulse.Controller qualified as Controller
@@ -449,6 +449,14 @@ planner = do
         each l = l / 10 + 10 / 100
     timeOf ExactStop fs `shouldSatisfy` isNear 1e-5 (each 10 + each 5)
     timeOf Blending fs `shouldSatisfy` isNear 1e-5 (each 10 + each 5 - 10 / 100)
+  it "takes the time of a dwell, in seconds or in milliseconds" $ do
+    let waits name n =
+          let control = named name
+              dwell = Frame.commandFrame [(CommandName "dwell", n)]
+              timeOf' fs = seconds control (totalTicks (snd (measured control fs)))
+           in timeOf' [dwell, line 600 1000 0] - timeOf' [line 600 1000 0]
+    waits "linuxcnc-mill" 2500 `shouldSatisfy` isNear 1e-5 2.5
+    waits "fanuc" 2500 `shouldSatisfy` isNear 1e-5 2.5
   it "takes 2·√(L/a) for a line too short for its feed" $
     timeOf ExactStop [line 6000 100 0] `shouldSatisfy` isNear 1e-4 (2 * sqrt (0.1 / 100))
   it "runs a full circle at most at √(a·r/2)" $ do
