@@ -33,6 +33,13 @@ import System.Process (readProcessWithExitCode)
 -- | Form of a file that a renderer makes.
 data RenderedForm = Png | Pdf
 
+-- | Form of a file.
+data Form
+  = Svg
+  | Rendered RenderedForm
+  | -- | none: the ending of the name is that of something else
+    NoForm Text
+
 -- | Writes a drawing to the file @wanted@, or to standard output if this is nothing or @-@. The
 -- name of the file determines its form. @name@ is the program's name in reports. @sources@ are the
 -- files that must not be replaced.
@@ -43,7 +50,8 @@ writeDrawing reporter name sources wanted svg = writePages reporter name sources
 -- has all of them, one below the other.
 writePages :: Reporter -> Text -> [FilePath] -> Maybe FilePath -> Text -> [Text] -> IO Exit
 writePages reporter name sources wanted whole pages = case wanted of
-  Just path | Just form <- formOf path -> do
+  Just path | NoForm ending <- formOf path -> failWith reporter name (NoSuchForm ending)
+  Just path | Rendered form <- formOf path -> do
     let drawings = case form of
           Pdf -> pages
           Png -> [whole]
@@ -53,12 +61,14 @@ writePages reporter name sources wanted whole pages = case wanted of
       Right bytes -> writeBytes reporter name sources path bytes
   _ -> writeText reporter name sources wanted whole
 
--- | Form of a file by the ending of its name; nothing for SVG.
-formOf :: FilePath -> Maybe RenderedForm
+-- | Form of a file by the ending of its name. A name without an ending means SVG.
+formOf :: FilePath -> Form
 formOf path = case map toLower (takeExtension path) of
-  ".png" -> Just Png
-  ".pdf" -> Just Pdf
-  _ -> Nothing
+  "" -> Svg
+  ".svg" -> Svg
+  ".png" -> Rendered Png
+  ".pdf" -> Rendered Pdf
+  _ -> NoForm (Text.pack (takeExtension path))
 
 -- | Converts the pages of a drawing by the first renderer that can do it.
 render :: RenderedForm -> [Text] -> IO (Either Error ByteString)

@@ -47,6 +47,8 @@ data Error
     NoRenderer
   | -- | No installed program could convert the drawing: the name of the last one, and what it said.
     RendererFails Text
+  | -- | The name of the file for a drawing ends in this, the ending of another form.
+    NoSuchForm Text
   | -- | The command line gives a value to the parameter of this name, but the program is an input
     -- sheet, which has no parameters.
     SheetAssigned Text
@@ -153,6 +155,10 @@ toReport err = case err of
   RendererFails why ->
     (wrong "E0820" InFile ("the drawing could not be converted: " <> why))
       { hints = ["Write SVG: give the output a name that ends in .svg."]
+      }
+  NoSuchForm ending ->
+    (wrong "E0823" InCommandLine ("a drawing cannot be written as ‘" <> ending <> "’"))
+      { hints = ["Give the output a name that ends in .svg, .png or .pdf."]
       }
   CannotListen why ->
     (wrong "E0821" InCommandLine ("the page cannot be served: " <> why))

@@ -47,6 +47,12 @@ spec = describe "drawings as PNG and PDF" $ do
       code `shouldBe` ExitFailure 1
       complaint `shouldSatisfy` ("rsvg-convert: no memory" `isInfixOf`)
       doesFileExist (folder </> "x.png") `shouldReturn` False
+  it "are refused in another form (catches SVG in a file that is called JPEG)" $
+    inFolder $ \folder -> do
+      (code, _, complaint) <- plotted folder [] "x.jpg"
+      code `shouldNotBe` ExitSuccess
+      complaint `shouldSatisfy` ("error[E0823]" `isInfixOf`)
+      doesFileExist (folder </> "x.jpg") `shouldReturn` False
   it "leave nothing in the temporary folder" $
     inFolder $ \folder -> do
       _ <- plotted folder [("rsvg-convert", copying "")] "x.png"
