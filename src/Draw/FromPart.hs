@@ -75,6 +75,7 @@ scene part path =
       holes = [(p, r) | Circle p (Mm r) <- circles],
       cuts =
         concatMap (cutsOf (isLastPass path)) (drawnOnce (ToolUse.blocksWithTools path)),
+      leads = leadsOf path,
       restMaterial = restMaterialOf path,
       feeds = along (\pace -> pace /= Rapid),
       rapids = along (== Rapid),
@@ -243,6 +244,30 @@ movesBetween block = case block of
     approach <> filter (not . isCut) (NonEmpty.toList cleared) <> retract
   Holing _ moves -> moves
   Commanding _ -> []
+
+-- | Moves at feed that are no cuts, but whose lower end is not above the highest pass.
+leadsOf :: Toolpath -> [(Double, Segment)]
+leadsOf path =
+  nubOrd
+    [ (r, s)
+      | (Mm r, _, ms) <- worked,
+        m <- ms,
+        Toolpath.pace m /= Rapid,
+        uncurry min (Toolpath.heights m) <= highest,
+        let s = Toolpath.segment m,
+        Segment.length s > Mm 0
+    ]
+  where
+    worked = mapMaybe work (Toolpath.blocks path)
+    highest = maximum (Mm (-1 / 0) : [z | (_, z, _) <- worked])
+    work block = case block of
+      Cutting {job = Located _ milling, pass} -> found milling pass block
+      Clearing {pocket = Located _ p, pass} -> found (Part.wall p) pass block
+      Travelling {} -> Nothing
+      Holing _ _ -> Nothing
+      Commanding _ -> Nothing
+    found milling pass block =
+      Just (radius milling, Toolpath.atHeight pass, movesBetween block)
 
 -- | Linking moves of a block among which there may be descents. A drill makes none, and the axis of
 -- a blade swivels it.

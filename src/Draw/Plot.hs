@@ -85,10 +85,14 @@ lowerLayers settings styles unit page scene =
       ( LineStyle.hatchings (appearance settings)
           <> [Svg.rectangle (Pen "none" 0 []) (background styles) (Page.paper page)]
       ),
-    Svg.layer "material" (material styles (shapes scene)),
-    Svg.layer "swept" (PlotMove.sweptAreas styles (cuts scene)),
-    Svg.layer "axes" (axes styles unit page)
+    Svg.layer "material" (material styles (shapes scene))
   ]
+    <> [ Svg.layer "swept-leads" (PlotMove.sweptLeads styles (leads scene))
+         | not (null (leads scene))
+       ]
+    <> [ Svg.layer "swept" (PlotMove.sweptAreas styles (cuts scene)),
+         Svg.layer "axes" (axes styles unit page)
+       ]
     <> [ Svg.layer "rests" (rests styles (map around (restMaterial scene)))
          | not (null (restMaterial scene))
        ]

@@ -1,6 +1,7 @@
 -- | Drawing of the moves of a toolpath: cuts, linking moves, descents, cutters and holes.
 module Draw.PlotMove
   ( sweptAreas,
+    sweptLeads,
     linkingMoves,
     cutLines,
     cutters,
@@ -31,10 +32,16 @@ import Geometry.Vec (Point)
 
 -- | Areas over which cutters sweep along cuts; one element for each radius.
 sweptAreas :: LineStyles -> [Cut] -> [Svg]
-sweptAreas styles cuts =
-  [ Svg.swept (Svg.Pen (sweptColour styles) (2 * radius) []) chains
-    | (radius, chains) <-
-        Map.toList (Map.fromListWith (<>) [(cutterRadius c, [chain c]) | c <- reverse cuts])
+sweptAreas styles cuts = sweptBy styles [(cutterRadius c, chain c) | c <- cuts]
+
+-- | Areas over which cutters sweep in leads and ramps; one element for each radius.
+sweptLeads :: LineStyles -> [(Double, Segment)] -> [Svg]
+sweptLeads styles leads = sweptBy styles [(r, [s]) | (r, s) <- leads]
+
+sweptBy :: LineStyles -> [(Double, [Segment])] -> [Svg]
+sweptBy styles paths =
+  [ Svg.swept (Svg.Pen (sweptColour styles) (2 * r) []) chains
+    | (r, chains) <- Map.toList (Map.fromListWith (<>) [(r, [c]) | (r, c) <- reverse paths])
   ]
 
 -- | Segments of a cut.

@@ -40,6 +40,9 @@ data Scene = Scene
     holes :: [(Point, Double)],
     -- | moves that cut
     cuts :: [Cut],
+    -- | moves at feed that are no cuts, but not above the highest cut either, such as leads and
+    -- ramps; each with the radius of its cutter
+    leads :: [(Double, Segment)],
     restMaterial :: [Rest],
     -- | linking moves at feed
     feeds :: [Segment],
@@ -112,6 +115,7 @@ onPage page scene =
     { shapes = [s {outline = map segment (outline s)} | s <- shapes scene],
       holes = [(point p, length' r) | (p, r) <- holes scene],
       cuts = map cut (cuts scene),
+      leads = [(length' r, segment s) | (r, s) <- leads scene],
       restMaterial =
         [ r {around = map segment (around r), centre = point (centre r)}
           | r <- restMaterial scene

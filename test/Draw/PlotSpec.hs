@@ -17,6 +17,13 @@ spec = describe "drawings" $ do
     SvgText.attributes "stroke-linecap" (SvgText.layer "swept" svg) `shouldBe` ["round"]
     SvgText.attributes "d" (SvgText.layer "swept" svg)
       `shouldBe` take 1 (SvgText.attributes "d" (SvgText.layer "path" svg))
+  it "sweep the leads too, but not the traverses" $ do
+    svg <- drawing ["examples/cnc/cover.part"]
+    let leads = SvgText.layer "swept-leads" svg
+    SvgText.attributes "stroke-width" leads `shouldBe` ["8"]
+    -- Two quarter circles: one to the contour and one away from it.
+    map (Text.count "A") (SvgText.attributes "d" leads) `shouldBe` [2]
+    map (Text.count "L") (SvgText.attributes "d" leads) `shouldBe` [0]
   it "number the nodes of the last pass only" $ do
     svg <- drawing ["examples/cnc/cover.part"]
     length (filter (== "0") (SvgText.texts (SvgText.layer "labels" svg))) `shouldBe` 1
