@@ -1,6 +1,6 @@
 // The panel that shows what happens at the present tick.
 
-import { KIND_NAMES, RAPID } from './paths.js';
+import { COMMANDS, KIND_NAMES, RAPID } from './paths.js';
 import { toolName } from './theme.js';
 import { above, sampleAt } from './position.js';
 import { feed, hertz, length, time, unitName } from './format.js';
@@ -47,7 +47,7 @@ export function createReadout(list, store, clock) {
       put('position', ['x', 'y', 'z'].map((axis) => `${axis} ${length(at[axis], unit)}`).join('  ')
         + ` ${unitName(unit)}`);
       put('axes', axesText(run, pulses, clock.tick));
-      put('commands', commandText(run, clock.tick));
+      put('commands', commandText(run, i, clock.tick));
       put('waiting', stateText(run, at, clock));
     },
   };
@@ -91,21 +91,39 @@ function axesText(run, pulses, tick) {
   return texts.filter(Boolean).join('  ') || '–';
 }
 
-function commandText(run, tick) {
+/**
+ * Text of the commands that have gone out in a frame (an index, or −1) up to a tick. Commands
+ * directly before the frame that took no time are among them, and are marked.
+ */
+export function commandText(run, frame, tick) {
+  if (frame < 0) return '–';
+  const { frameTick, frameInfo } = run.arrays;
+  let first = frame;
+  const begin = frameTick[3 * frame];
+  const isInstant = (i) => frameInfo[5 * i] === COMMANDS && frameTick[3 * i] === begin
+    && frameTick[3 * i + 1] === begin;
+  while (first > 0 && isInstant(first - 1)) first--;
+  const before = textsOf(run, first, frame, tick);
+  const own = textsOf(run, frame, frame + 1, tick);
+  const parts = [before && `${before} before this frame`, own].filter(Boolean);
+  return parts.join('; ') || '–';
+}
+
+// Commands of the frames from a up to b without b that have gone out up to a tick.
+function textsOf(run, a, b, tick) {
   const { commands } = run.header;
   let low = 0;
   let high = commands.length;
   while (low < high) {
     const middle = (low + high) >>> 1;
-    if (commands[middle].tick <= tick) low = middle + 1;
+    if (commands[middle].frame < a) low = middle + 1;
     else high = middle;
   }
-  if (low === 0) return '–';
-  const last = commands[low - 1];
-  let first = low - 1;
-  while (first > 0 && commands[first - 1].frame === last.frame) first--;
-  const texts = commands.slice(first, low).map((command) => command.text);
-  return `${texts.join(', ')} (frame ${last.frame + 1})`;
+  const texts = [];
+  for (let i = low; i < commands.length && commands[i].frame < b; i++) {
+    if (commands[i].tick <= tick) texts.push(commands[i].text);
+  }
+  return texts.join(', ');
 }
 
 function stateText(run, at, clock) {

@@ -21,6 +21,12 @@ after(async () => {
   await mock.stop();
 });
 
+/** Takes a screenshot if the environment variable SHOTS names a folder for it. */
+const shot = async (page, name) => {
+  const folder = process.env.SHOTS;
+  if (folder) await page.screenshot({ path: `${folder}/${name}.png` });
+};
+
 async function open(options = {}, mode = 'plate', control = {}) {
   mock.state.change('plate', control);
   mock.state.change(mode, control);
@@ -153,6 +159,25 @@ test('playback runs to the end, backwards, and by steps', async () => {
   await page.keyboard.press(' ');
   assert.equal(await page.evaluate(() => partc.clock.direction), 1);
   await page.keyboard.press(' ');
+  await page.end();
+});
+
+test('a command disappears when a later frame is played', async () => {
+  const page = await open();
+  const told = (frame) => page.evaluate((i) => {
+    const { frameTick } = partc.state.run.arrays;
+    partc.player.seek((frameTick[3 * i] + frameTick[3 * i + 1]) / 2);
+    partc.draw();
+    const names = [...document.querySelectorAll('#readout dt')];
+    return names.find((name) => name.textContent === 'Command').nextElementSibling.textContent;
+  }, frame);
+  assert.equal(await told(1), 'spindle on, clockwise before this frame');
+  await shot(page, 'command');
+  assert.equal(await told(2), '–');
+  assert.equal(await told(9), '–');
+  const last = await page.evaluate(() => partc.state.frames.count - 1);
+  assert.equal(await told(last), 'end of program');
+  assert.equal(await told(last - 1), '–');
   await page.end();
 });
 

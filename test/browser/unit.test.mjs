@@ -5,6 +5,7 @@ import test from 'node:test';
 import { decode } from '../../preview/container.js';
 import * as geometry from '../../preview/geometry.js';
 import * as position from '../../preview/position.js';
+import { commandText } from '../../preview/now.js';
 import { mapLine } from '../../preview/lines.js';
 import { difference, largestDistance } from '../../preview/compare.js';
 import * as format from '../../preview/format.js';
@@ -142,6 +143,23 @@ test('position: samples', () => {
   assert.equal(position.sampleAt(sample, index, 0, 30), null);
   assert.equal(position.sampleAt(sample, index, 1, 44), -3);
   assert.equal(position.sampleAt(sample, index, 4, 44), null);
+});
+
+test('now: a command is told in its frame, and not after it', () => {
+  const command = (frame, tick, text) => ({ frame, tick, text });
+  const run = { header: { commands: [command(0, 0, 'S 800'), command(1, 0, 'M 3'),
+    command(3, 45, 'M 8'), command(4, 60, 'M 9')] }, arrays: {
+    frameTick: Float64Array.of(0, 0, 0, 0, 0, 0, 0, 30, 0, 40, 60, 0, 60, 70, 0, 80, 90, 0),
+    frameInfo: Int32Array.of(3, 0, 0, 1, 0, 3, 0, 0, 1, 0, 2, 0, 0, 1, 0, 2, 0, 0, 1, 0,
+      3, 0, 0, 1, 0, 0, 0, 0, 1, 0),
+  } };
+  assert.equal(commandText(run, -1, 0), '–');
+  assert.equal(commandText(run, 1, 0), 'S 800 before this frame; M 3');
+  assert.equal(commandText(run, 2, 20), 'S 800, M 3 before this frame');
+  assert.equal(commandText(run, 3, 44), '–');
+  assert.equal(commandText(run, 3, 45), 'M 8');
+  assert.equal(commandText(run, 4, 65), 'M 9');
+  assert.equal(commandText(run, 5, 85), '–');
 });
 
 test('lines: after insertions and changes', () => {
