@@ -10,8 +10,9 @@ export function drawLegend(element, state) {
   const path = shownPath(state);
   element.hidden = !path || path.count === 0;
   if (element.hidden) return;
-  const { title, legend } = painter(path, state.colour, state.drawing.header);
+  const { title, scale, legend } = painter(path, state.colour, state.drawing.header);
   const rows = legend.map(([colour, dashed, text]) => row(colour, dashed ? '5 3' : '', text));
+  if (scale) rows.unshift(scaleRow(scale));
   if (title) {
     const head = document.createElement('div');
     head.className = 'head';
@@ -24,6 +25,17 @@ export function drawLegend(element, state) {
   }
   if (state.other?.kind === 'machine') rows.push(row(c.other, '1 3', state.other.title));
   element.replaceChildren(...rows);
+}
+
+// A scale between the texts of its ends.
+function scaleRow({ colours: stops, from, to }) {
+  const out = document.createElement('div');
+  const band = document.createElement('span');
+  out.className = 'range';
+  band.className = 'band';
+  band.style.background = `linear-gradient(to right, ${stops.join(', ')})`;
+  out.append(from, band, to);
+  return out;
 }
 
 function row(colour, dashes, text) {

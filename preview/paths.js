@@ -79,9 +79,9 @@ export function depthRange(path) {
   return range(path, (i) => Math.min(path.seg[9 * i + 7], path.seg[9 * i + 8]));
 }
 
-/** Range [low, high] of the feeds of a path's cuts in mm/min, or null. */
+/** Range [low, high] of the known feeds of a path's cuts in mm/min, or null. */
 export function feedRange(path) {
-  return range(path, (i) => path.feed[i * path.feedStride]);
+  return range(path, (i) => path.feed[i * path.feedStride] || NaN);
 }
 
 function range(path, value) {
@@ -89,7 +89,7 @@ function range(path, value) {
   let high = -Infinity;
   for (let i = 0; i < path.count; i++) {
     if (path.info[5 * i] !== CUT) continue;
-    const v = value(i);
+    const v = value(i); // NaN is neither less nor greater
     if (v < low) low = v;
     if (v > high) high = v;
   }

@@ -3,8 +3,8 @@
 import { CUT, KIND_NAMES, LINK, RAPID, depthRange, feedRange } from './paths.js';
 import { feed as feedText, length, unitName } from './format.js';
 
-/** Number of steps of the scales for depths and feeds. */
-export const STEPS = 10;
+// Count of the colours of a scale: so many that one cannot be told from the next.
+const STEPS = 48;
 
 const NAMES = ['paper', 'face', 'edge', 'ink', 'soft', 'grid', 'grid-strong', 'part', 'contour',
   'cut', 'link', 'rapid', 'other', 'swept', 'rest', 'mark', 'gone', 'new', 'cutter', 'accent',
@@ -78,6 +78,7 @@ export function followScheme(select, changed) {
 /**
  * Chooser of the colours of a path's parts. `bin` gives the number of a part's colour, `colour` the
  * colour of a number, `dashed` whether it is dashed, and `legend` lists [colour, dashed, text].
+ * `scale` is null, or has the `colours` of a scale and the texts of its ends, `from` and `to`.
  */
 export function painter(path, by, header) {
   const c = colours();
@@ -88,6 +89,7 @@ export function painter(path, by, header) {
     colour: (bin) => kinds[bin] ?? c.soft,
     dashed: (bin) => bin === RAPID,
     title: '',
+    scale: null,
     legend: [CUT, LINK, RAPID].filter((k) => k === CUT || occurring(path).has(k))
       .map((k) => [kinds[k], k === RAPID, KIND_NAMES[k]]),
   };
@@ -98,7 +100,7 @@ export function painter(path, by, header) {
     return byScale(path, base, depthRange(path), value, kindOf, c, 'Depth of cuts', text, true);
   }
   if (by === 'feed') {
-    const value = (i) => path.feed[i * path.feedStride];
+    const value = (i) => path.feed[i * path.feedStride] || NaN; // a feed of 0 is not known
     const text = (v) => feedText(v, header.unit);
     return byScale(path, base, feedRange(path), value, kindOf, c, 'Feed of cuts', text, false);
   }
@@ -139,51 +141,46 @@ function byTool(path, base, header, c) {
 function distinct(path, value, kindOf) {
   const found = new Set();
   for (let i = 0; i < path.count; i++) {
-    if (kindOf(i) !== CUT) continue;
+    if (kindOf(i) !== CUT || Number.isNaN(value(i))) continue;
     found.add(Math.round(value(i) * 1e4) / 1e4);
     if (found.size > 6) return null;
   }
   return [...found].sort((a, b) => a - b);
 }
 
-function byValue(base, few, value, kindOf, c, title, text, fromTop) {
-  const step = (k) => {
-    const at = few.length > 1 ? k / (few.length - 1) : 0;
-    return Math.round((fromTop ? 1 - at : at) * (STEPS - 1));
-  };
-  const places = new Map(few.map((v, k) => [v, step(k)]));
-  const rows = few.map((v, k) => [c.scale[step(k)], false, text(v)]);
-  if (fromTop) rows.reverse();
-  return {
-    ...base,
-    bin: (i) => (kindOf(i) === CUT ? 3 + (places.get(Math.round(value(i) * 1e4) / 1e4) ?? 0)
-      : kindOf(i)),
-    colour: (bin) => (bin >= 3 ? c.scale[bin - 3] : base.colour(bin)),
-    title,
-    legend: [...rows, ...base.legend.slice(1)],
-  };
-}
-
+// Colours of the cuts by a value, which is NaN for those that have none: a row of the legend for
+// each of a few values, or a scale between the least and the greatest of many.
 function byScale(path, base, span, value, kindOf, c, title, text, fromTop) {
   if (!span) return base;
   const [low, high] = span;
   const few = distinct(path, value, kindOf);
-  if (few) return byValue(base, few, value, kindOf, c, title, text, fromTop);
-  const step = (v) => {
-    const part = high > low ? (v - low) / (high - low) : 0;
-    const at = Math.round((fromTop ? 1 - part : part) * (STEPS - 1));
-    return Math.min(STEPS - 1, Math.max(0, at));
-  };
-  const shown = high > low ? [0, 3, 6, 9] : [0];
-  const valueOf = (k) => {
-    const part = k / (STEPS - 1);
-    return low + (fromTop ? 1 - part : part) * (high - low);
-  };
+  const step = (part) => Math.round((fromTop ? 1 - part : part) * (STEPS - 1));
+  const stepOf = few ? stepOfFew(few, step) : (v) => step((v - low) / (high - low));
+  const rows = (few ?? []).map((v) => [c.scale[stepOf(v)], false, text(v)]);
+  if (fromTop) rows.reverse();
+  const ends = fromTop ? [high, low] : [low, high];
+  const isKnown = (i) => kindOf(i) === CUT && !Number.isNaN(value(i));
+  const lacks = lacking(path, isKnown) ? [[base.colour(CUT), false, 'not known']] : [];
   return {
     ...base,
-    bin: (i) => (kindOf(i) === CUT ? 3 + step(value(i)) : kindOf(i)),
+    bin: (i) => (isKnown(i) ? 3 + stepOf(value(i)) : kindOf(i)),
     colour: (bin) => (bin >= 3 ? c.scale[bin - 3] : base.colour(bin)),
     title,
-    legend: [...shown.map((k) => [c.scale[k], false, text(valueOf(k))]), ...base.legend.slice(1)],
+    scale: few ? null : { colours: c.scale, from: text(ends[0]), to: text(ends[1]) },
+    legend: [...rows, ...lacks, ...base.legend.slice(1)],
   };
+}
+
+// A few values have colours that are equally far apart.
+function stepOfFew(few, step) {
+  const places = new Map(few.map((v, k) => [v, step(few.length > 1 ? k / (few.length - 1) : 0)]));
+  return (v) => places.get(Math.round(v * 1e4) / 1e4) ?? 0;
+}
+
+// Whether some cuts have no value.
+function lacking(path, isKnown) {
+  for (let i = 0; i < path.count; i++) {
+    if (path.info[5 * i] === CUT && !isKnown(i)) return true;
+  }
+  return false;
 }

@@ -346,6 +346,62 @@ test('the keyboard measures too', async () => {
   await page.end();
 });
 
+const legendOf = (page) => page.evaluate(() => ({
+  texts: [...document.querySelectorAll('#legend > div')].map((row) => row.textContent),
+  bands: document.querySelectorAll('#legend .band').length,
+}));
+
+test('the legend of many values is a scale with its ends, of few values a list', async () => {
+  const page = await open({}, 'big20000');
+  const ends = await page.evaluate(() => {
+    const cuts = [...partc.state.moves.feed.keys()]
+      .filter((i) => partc.state.moves.info[5 * i] === 2);
+    const { seg, feed } = partc.state.moves;
+    const of = (value) => [Math.min, Math.max].map((end) => cuts.map(value)
+      .reduce((a, b) => end(a, b)));
+    return { depth: of((i) => Math.min(seg[9 * i + 7], seg[9 * i + 8])), feed: of((i) => feed[i]) };
+  });
+  await page.selectOption('#colour', 'depth');
+  const [low, high] = ends.depth.map((v) => `${v.toFixed(3).replace('-', '\u2212')} mm`);
+  assert.deepEqual(await legendOf(page),
+    { texts: ['Depth of cuts', high + low, 'linking move', 'rapid move'], bands: 1 });
+  await shot(page, 'legend-depth');
+  await page.selectOption('#colour', 'feed');
+  const [slow, fast] = ends.feed.map((v) => `${v} mm/min`);
+  assert.deepEqual(await legendOf(page),
+    { texts: ['Feed of cuts', slow + fast, 'linking move', 'rapid move'], bands: 1 });
+  await page.end();
+  const plate = await open();
+  await plate.selectOption('#colour', 'feed');
+  assert.deepEqual(await legendOf(plate), { texts: ['Feed of cuts', ...[60, 120, 150, 200, 250, 300]
+    .map((v) => `${v} mm/min`), 'linking move', 'rapid move'], bands: 0 });
+  await plate.end();
+});
+
+test('colours between the ends of a scale are mixed, and an unknown feed has none', async () => {
+  const page = await open();
+  const { shades, none, legend, mixed } = await page.evaluate(async () => {
+    const { painter, colours } = await import('./theme.js');
+    const feeds = [0, ...Array.from({ length: 41 }, (_, k) => 100 + 10 * k)];
+    const path = { count: feeds.length, feed: feeds, feedStride: 1, seg: [],
+      info: feeds.flatMap(() => [2, 0, 0, 1, 0]) };
+    const paint = painter(path, 'feed', { unit: 'mm' });
+    const colourAt = (i) => paint.colour(paint.bin(i));
+    const all = feeds.slice(1).map((_, k) => colourAt(k + 1));
+    return { shades: new Set(all).size, none: [colourAt(0), colours().cut],
+      legend: paint.legend.map((row) => row[2]), mixed: [all[0], all[10], all[40]] };
+  });
+  assert.equal(shades, 41);
+  assert.equal(none[0], none[1]);
+  assert.deepEqual(legend, ['not known']);
+  // The second of the five colours of the scale lies at a quarter of it.
+  const rgb = mixed.map((text) => text.match(/\d+/g).map(Number));
+  for (const [k, want] of [[217, 164, 0], [156, 138, 60], [0, 40, 95]].entries()) {
+    for (const c of [0, 1, 2]) assert.ok(Math.abs(rgb[k][c] - want[c]) <= 4, `${rgb[k]}: ${want}`);
+  }
+  await page.end();
+});
+
 test('texts and machines are compared', async () => {
   const page = await open();
   mock.state.change('changed');
