@@ -32,6 +32,11 @@ export function createFrames(element, store, choose) {
       if (follow && index >= 0) list.reveal(index);
       list.refresh();
     },
+
+    /** Scrolls to the frame that the playback has reached. */
+    catchUp() {
+      if (present >= 0) list.reveal(present);
+    },
   };
 }
 

@@ -75,6 +75,7 @@ const readout = createReadout(get('readout'), store, clock);
 const jobs = createJobs(get('jobs-figure'), get('jobs'), get('jobs-span'), store, clock);
 const showTab = attachTabs(document.querySelector('[role=tablist]'), () => {
   tape.touch();
+  if (clock.direction !== 0 && store.state.follow) catchUp();
   wake();
 });
 createReports(get('reports'), store, (report) => {
@@ -182,6 +183,12 @@ function drawAll() {
   const file = there.frame >= 0 ? info[5 * there.frame + 2] : -1;
   const place = file >= 0 ? ofPictureLine(state, file, info[5 * there.frame + 3], -1) : NOTHING;
   text.play(place.textFile, place.textLine, state.follow && clock.direction !== 0);
+}
+
+/** Scrolls the lists to what the playback has reached. */
+function catchUp() {
+  if (!clock.started || !store.state.run) return;
+  for (const list of [frames, text, tape]) list.catchUp();
 }
 
 function chooseView(view) {
@@ -369,6 +376,7 @@ function subscribe() {
   });
   store.later(['layers', 'other'], () => { plan.touch(); space.rebuild(); });
   store.later(['pulses', 'view'], () => wake());
+  store.later(['follow'], (s) => { if (s.follow) catchUp(); });
   store.later(['selection'], () => { plan.touch('mark'); space.touch(); });
   store.later(['cursor'], (s) => cursorMoved(s));
   store.on(['other'], (s) => {

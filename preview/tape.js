@@ -27,6 +27,9 @@ export function createTape(elements, store, clock, choose) {
   store.on(['run'], (s) => load(view, s.run));
   new ResizeObserver(() => { view.row = -1; }).observe(elements.holes);
   view.touch = () => { view.row = -1; };
+  view.catchUp = () => {
+    if (view.line >= 0) view.list.reveal(view.line);
+  };
   view.draw = (follow) => draw(view, store.state, clock, follow);
   return view;
 }

@@ -30,6 +30,13 @@ export function createText(elements, store, choose) {
       if (follow && file >= 0 && file === view.file) list.reveal(line - 1);
       list.refresh();
     },
+    /** Scrolls to the line of the frame that the playback has reached. */
+    catchUp() {
+      const { file, line } = view.playing;
+      if (file < 0) return;
+      if (file !== view.file) view.open(file);
+      list.reveal(line - 1);
+    },
   });
   elements.select.addEventListener('change', () => view.open(Number(elements.select.value)));
   store.on(['drawing'], () => load(view, elements, store));

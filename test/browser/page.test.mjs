@@ -181,6 +181,45 @@ test('a command disappears when a later frame is played', async () => {
   await page.end();
 });
 
+test('lists that are told to follow catch up at once', async () => {
+  const page = await open({ viewport: { width: 1280, height: 640 } });
+  await page.selectOption('#machine', 'linuxcnc-mill');
+  await page.waitForFunction(() => partc.state.run?.header.machine === 'linuxcnc-mill');
+  // Goes just behind the begin of the longest frame among those from a given one on.
+  const go = (from, running) => page.evaluate(([first, isRunning]) => {
+    const { frameTick } = partc.state.run.arrays;
+    const lasts = (i) => frameTick[3 * i + 1] - frameTick[3 * i];
+    const rest = Array.from({ length: 15 }, (_, k) => first + k);
+    const longest = rest.reduce((a, b) => (lasts(b) > lasts(a) ? b : a));
+    partc.clock.run(0);
+    partc.clock.setSpeed(0.1);
+    partc.player.seek(frameTick[3 * longest] + 0.01);
+    if (isRunning) partc.clock.run(1);
+    partc.draw();
+  }, [from, running]);
+  const isShown = (list) => page.evaluate((selector) => {
+    const row = document.querySelector(`${selector} .vrow.present`)?.getBoundingClientRect();
+    const box = document.querySelector(selector).getBoundingClientRect();
+    return Boolean(row) && row.top >= box.top && row.bottom <= box.bottom;
+  }, list);
+  for (const running of [false, true]) {
+    for (const [tab, list] of [['#tab-frames', '#frame-list'], ['#tab-text', '#text-list'],
+      ['#tab-tape', '#tape-text']]) {
+      await page.click(tab);
+      await page.uncheck('#follow');
+      await page.$eval(list, (element) => { element.scrollTop = 0; });
+      await go(28, running);
+      assert.ok(!await isShown(list), list);
+      await page.check('#follow');
+      assert.ok(await isShown(list), list);
+    }
+  }
+  await go(1, true);
+  await page.click('#tab-frames');
+  assert.ok(await isShown('#frame-list'));
+  await page.end();
+});
+
 test('the swept area and the trace are the same however a tick is reached', async () => {
   for (const mode of ['plate', 'big20000']) {
     const page = await open({}, mode);
