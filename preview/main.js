@@ -227,6 +227,12 @@ function toggleLayers(open = get('layers-panel').hidden) {
   if (open) get('layers-panel').querySelector('input').focus();
 }
 
+// Opens the list of keys at its top: its title has the focus, not the button at its end.
+function showHelp() {
+  get('help').showModal();
+  get('help').scrollTop = 0;
+}
+
 function escape() {
   if (!get('layers-panel').hidden) {
     toggleLayers(false);
@@ -273,7 +279,7 @@ function buildControls() {
   }
   get('machine').addEventListener('change', () => loader.chooseMachine(get('machine').value));
   get('compare').addEventListener('change', () => loader.compare(get('compare').value));
-  get('help-button').addEventListener('click', () => get('help').showModal());
+  get('help-button').addEventListener('click', showHelp);
   for (const id of ['plan', 'space']) get(id).addEventListener('keydown', paneKey);
 }
 
@@ -399,7 +405,7 @@ function cursorMoved(s) {
 }
 
 const table = keyTable({ player, clock, activeView, chooseView, space, store, setMeasuring,
-  toggleLayers, goToFrame, escape, help: () => get('help').showModal() });
+  toggleLayers, goToFrame, escape, help: showHelp });
 buildLayers();
 buildControls();
 attachKeys(table);

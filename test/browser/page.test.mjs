@@ -537,6 +537,27 @@ test('a phone sees everything without scrolling sideways, and pans and pinches',
   await page.end();
 });
 
+test('the list of keys opens at its top, and scrolls by the keyboard', async () => {
+  for (const viewport of [{ width: 1280, height: 640 }, { width: 360, height: 640 }]) {
+    const page = await open({ viewport });
+    const top = () => page.$eval('#help', (dialog) => dialog.scrollTop);
+    for (const how of [() => page.keyboard.press('?'), () => page.click('#help-button')]) {
+      await how();
+      assert.ok(await page.$eval('#help', (dialog) => dialog.scrollHeight > dialog.clientHeight));
+      assert.equal(await top(), 0);
+      assert.ok(await page.isVisible('#help-title'));
+      await shot(page, `keys-${viewport.width}`);
+      await page.keyboard.press('End');
+      await page.waitForFunction(() => document.getElementById('help').scrollTop > 0);
+      await page.keyboard.press('Tab');
+      assert.equal(await page.evaluate(() => document.activeElement.id), 'help-close');
+      await page.keyboard.press('Enter');
+      assert.ok(!await page.isVisible('#help'));
+    }
+    await page.end();
+  }
+});
+
 test('every control is reached by the keyboard and has a name', async () => {
   const page = await open();
   const seen = new Set();
