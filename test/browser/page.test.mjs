@@ -360,6 +360,39 @@ test('colours between the ends of a scale are mixed, and an unknown feed has non
   await page.end();
 });
 
+/** Boxes of what is visible of elements: left, top, right and bottom in CSS pixels. */
+const boxesOf = (page, ...selectors) => page.evaluate((names) => names.map((name) => {
+  const box = document.querySelector(name).getBoundingClientRect();
+  return [box.left, box.top, box.right, box.bottom].map(Math.round);
+}), selectors);
+
+const meet = (a, b) => a[0] < b[2] && b[0] < a[2] && a[1] < b[3] && b[1] < a[3];
+
+test('the panel of the layers and the legend do not overlap', async () => {
+  const page = await open();
+  const sizes = [[360, 740], [480, 640], [640, 400], [820, 600], [821, 640], [1000, 640],
+    [1280, 800], [1600, 900]];
+  for (const view of ['plan', 'space']) {
+    await page.click(`#view-${view}`);
+    await page.click('#layers-button');
+    for (const [width, height] of sizes) {
+      await page.setViewportSize({ width, height });
+      for (const colour of ['kind', 'feed', 'tool']) {
+        await page.selectOption('#colour', colour);
+        const [panel, legend, picture] = await boxesOf(page, '#layers-panel', '#legend',
+          '#picture');
+        const where = `${view} ${width}x${height} ${colour}: ${panel} ${legend} ${picture}`;
+        assert.ok(!meet(panel, legend), where);
+        assert.ok(legend[2] <= picture[2] && legend[3] <= picture[3], where);
+        assert.ok(panel[3] <= picture[3] && panel[2] - panel[0] > 100, where);
+        if (view === 'plan' && colour === 'feed') await shot(page, `layers-${width}`);
+      }
+    }
+    await page.click('#layers-button');
+  }
+  await page.end();
+});
+
 test('texts and machines are compared', async () => {
   const page = await open();
   mock.state.change('changed');
