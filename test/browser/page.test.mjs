@@ -393,6 +393,32 @@ test('the panel of the layers and the legend do not overlap', async () => {
   await page.end();
 });
 
+test('in a low window nothing covers what happens now', async () => {
+  const sizes = [[1280, 640], [821, 640], [1600, 561], [844, 390], [1280, 400], [740, 360],
+    [360, 640]];
+  for (const mode of ['plate', 'error']) {
+    const page = await open({}, mode);
+    await page.evaluate(() => partc.player.seek(partc.clock.end / 3));
+    for (const [width, height] of sizes) {
+      await page.setViewportSize({ width, height });
+      for (const name of ['text', 'frames', 'tape']) {
+        await page.click(`#tab-${name}`);
+        await page.evaluate(() => partc.draw());
+        const list = name === 'tape' ? '#tape-canvas' : `#${name.replace('frames', 'frame')}-list`;
+        const [panel, inner, now, picture, transport, side] = await boxesOf(page,
+          `#panel-${name}`, list, '#now', '#picture', '.transport', '.side');
+        const where = `${mode} ${width}x${height} ${name}: ${[panel, inner, now].join(' / ')}`;
+        assert.ok(inner[3] <= panel[3] && panel[3] <= now[1], where);
+        assert.ok(panel[3] - panel[1] >= 110 && now[3] - now[1] >= 50, where);
+        assert.ok(picture[3] <= transport[1] && !meet(transport, side), where);
+        assert.ok(picture[3] - picture[1] >= 160, where);
+        if (name === 'tape') await shot(page, `low-${mode}-${width}x${height}`);
+      }
+    }
+    await page.end();
+  }
+});
+
 test('texts and machines are compared', async () => {
   const page = await open();
   mock.state.change('changed');
