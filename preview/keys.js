@@ -53,7 +53,10 @@ export function fillHelp(element, table, more) {
   }
 }
 
-/** Makes the buttons of a tab list choose panels, with arrow keys as usual. */
+/**
+ * Makes the buttons of a tab list choose panels, with arrow keys as usual. Returns the function
+ * that chooses a tab by its id. Hidden tabs cannot be chosen.
+ */
 export function attachTabs(list, chosen) {
   const tabs = [...list.querySelectorAll('[role=tab]')];
   const choose = (tab, focus) => {
@@ -68,11 +71,15 @@ export function attachTabs(list, chosen) {
   };
   for (const tab of tabs) tab.addEventListener('click', () => choose(tab, false));
   list.addEventListener('keydown', (event) => {
-    const at = tabs.indexOf(document.activeElement);
-    const steps = { ArrowRight: at + 1, ArrowLeft: at - 1, Home: 0, End: tabs.length - 1 };
+    const shown = tabs.filter((tab) => !tab.hidden);
+    const at = shown.indexOf(document.activeElement);
+    const steps = { ArrowRight: at + 1, ArrowLeft: at - 1, Home: 0, End: shown.length - 1 };
     if (at < 0 || !(event.key in steps)) return;
     event.preventDefault();
-    choose(tabs[(steps[event.key] + tabs.length) % tabs.length], true);
+    choose(shown[(steps[event.key] + shown.length) % shown.length], true);
   });
-  return (id) => choose(tabs.find((tab) => tab.id === id), false);
+  return (id) => {
+    const tab = tabs.find((candidate) => candidate.id === id && !candidate.hidden);
+    if (tab) choose(tab, false);
+  };
 }

@@ -15,7 +15,7 @@ import { createReadout } from './now.js';
 import { countText, createReports } from './reports.js';
 import { createSpace } from './space.js';
 import { createTape } from './tape.js';
-import { createText } from './text.js';
+import { createText, filesOf } from './text.js';
 import { createTimeline } from './timeline.js';
 import { followScheme } from './theme.js';
 import { keyTable, MORE_KEYS } from './keytable.js';
@@ -361,9 +361,17 @@ function playback(s) {
   get('no-run').textContent = s.runState === 'loading' && s.run ? '' : texts[s.runState];
 }
 
+// A tape without its program has no text: its page begins with the tape.
+function textTab(s) {
+  const tab = get('tab-text');
+  tab.hidden = Boolean(s.drawing) && filesOf(s.drawing).length === 0;
+  if (tab.hidden && tab.getAttribute('aria-selected') === 'true') showTab('tab-tape');
+}
+
 function subscribe() {
   store.later(['drawing'], (s) => { get('picture-text').textContent = describe(s); });
   store.on(['drawing', 'machine'], options);
+  store.on(['drawing'], textTab);
   store.on(['drawing', 'connection', 'fault', 'run'], heading);
   store.on(['runState', 'run', 'drawing'], playback);
   store.later(['run'], (s) => {

@@ -66,9 +66,28 @@ test('a tape without its program is shown and played', async () => {
   assert.ok(await inked(page, 'plan-path') > 1000);
   await page.click('#frame-on');
   await page.click('#view-space');
-  await page.click('#tab-tape');
   await page.waitForFunction(() => /address X/
     .test(document.getElementById('tape-rows').textContent));
+  await page.end();
+});
+
+test('a tape without its program opens with its rows, and has no list of lines', async () => {
+  const page = await open({}, 'tape');
+  const tabs = () => page.evaluate(() => [...document.querySelectorAll('[role=tab]')]
+    .filter((tab) => tab.checkVisibility()).map((tab) => tab.textContent));
+  assert.deepEqual(await tabs(), ['Frames', 'Tape']);
+  assert.equal(await page.textContent('[role=tab][aria-selected=true]'), 'Tape');
+  assert.ok(await page.isVisible('#tape-holes') && !await page.isVisible('#panel-text'));
+  await shot(page, 'tape-alone');
+  await page.focus('#tab-tape');
+  for (const name of ['Frames', 'Tape', 'Frames']) {
+    await page.keyboard.press('ArrowRight');
+    assert.equal(await page.textContent('[role=tab][aria-selected=true]'), name);
+  }
+  mock.state.change('plate');
+  await page.waitForSelector('#tab-text');
+  assert.deepEqual(await tabs(), ['Program', 'Frames', 'Tape']);
+  assert.equal(await page.textContent('[role=tab][aria-selected=true]'), 'Frames');
   await page.end();
 });
 
