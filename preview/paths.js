@@ -18,7 +18,7 @@ export const KIND_NAMES = ['rapid move', 'linking move', 'cut', 'commands'];
 function makePath(seg, info, feed, feedStride) {
   const count = Math.floor(seg.length / 9);
   return {
-    seg, info, feed, feedStride, count, stride: 9, box: boxes(seg, 9), byLine: null,
+    seg, info, feed, feedStride, count, stride: 9, box: boxes(seg, 9), byLine: null, top: null,
   };
 }
 
@@ -77,6 +77,17 @@ function holeBoxes(hole) {
 /** Range [low, high] of the heights of a path's cuts in mm, or null. */
 export function depthRange(path) {
   return range(path, (i) => Math.min(path.seg[9 * i + 7], path.seg[9 * i + 8]));
+}
+
+/**
+ * Whether the cutter sweeps the part in this move: in a cut, and in a lead or a ramp, whose lower
+ * end is not above the highest cut.
+ */
+export function sweeps(path, i) {
+  const kind = path.info[5 * i];
+  if (kind !== LINK) return kind === CUT;
+  path.top ??= (depthRange(path) ?? [0, -Infinity])[1];
+  return Math.min(path.seg[9 * i + 7], path.seg[9 * i + 8]) <= path.top;
 }
 
 /** Range [low, high] of the known feeds of a path's cuts in mm/min, or null. */

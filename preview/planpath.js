@@ -1,6 +1,6 @@
 // The toolpath in the plan view: its static layers, and what the playback paints over them.
 
-import { CUT, LINK, RAPID, COMMANDS } from './paths.js';
+import { CUT, LINK, RAPID, COMMANDS, sweeps } from './paths.js';
 import { Pen } from './simplify.js';
 import { follows, makeChunks, meets, penTrace, trace, tracePart } from './chunks.js';
 
@@ -33,7 +33,7 @@ export function perScale(isSimplified, make) {
  */
 export function makePathChunks(path, paint, tools) {
   const radius = (k) => tools[k]?.radius ?? 0;
-  const sweptBin = (i) => (path.info[5 * i] === CUT && radius(path.info[5 * i + 1]) > 0
+  const sweptBin = (i) => (sweeps(path, i) && radius(path.info[5 * i + 1]) > 0
     ? path.info[5 * i + 1] : -1);
   const at = perScale(path.count >= MANY, (pixel) => ({
     lines: makeChunks(path, paint.bin, 0.25 * pixel),
@@ -134,7 +134,7 @@ export function strokeRange(context, v, path, a, b, margin, style, apply) {
 export function sweptPainters(v, get) {
   const style = (frames, tools) => (i) => {
     const tool = frames.info[5 * i + 1];
-    return frames.info[5 * i] === CUT && (tools[tool]?.radius ?? 0) > 0 ? tool : -1;
+    return sweeps(frames, i) && (tools[tool]?.radius ?? 0) > 0 ? tool : -1;
   };
   const prepare = (context) => {
     v.toMm(context);

@@ -9,6 +9,7 @@ import { commandText } from '../../preview/now.js';
 import { mapLine } from '../../preview/lines.js';
 import { difference, largestDistance } from '../../preview/compare.js';
 import * as format from '../../preview/format.js';
+import { framePath, sweeps } from '../../preview/paths.js';
 import * as data from './mock-data.mjs';
 
 const near = (a, b, by = 1e-9) => assert.ok(Math.abs(a - b) <= by, `${a} is not near ${b}`);
@@ -216,4 +217,17 @@ test('simplify: no left-out point is farther away than the tolerance', async () 
       assert.ok(best <= tolerance * 1.125 + 1e-9, `${best}`);
     }
   }
+});
+
+test('paths: leads and ramps sweep the part, moves above it do not', () => {
+  const part = (z0, z1) => [0, 0, 10, 0, 0, 0, 0, z0, z1];
+  const parts = [[2, part(-5, -5)], [2, part(-8, -8)], [1, part(-5, -5)], [1, part(2, -8)],
+    [1, part(2, 2)], [0, part(-8, -8)], [3, part(-8, -8)]];
+  const path = framePath({ arrays: {
+    frame: Float64Array.from(parts.flatMap(([, seg]) => seg)),
+    frameInfo: Int32Array.from(parts.flatMap(([kind]) => [kind, 0, 0, 1, 0])),
+    frameFeed: new Float64Array(2 * parts.length),
+  } });
+  assert.deepEqual(parts.map((_, i) => sweeps(path, i)),
+    [true, true, true, true, false, false, false]);
 });
