@@ -9,7 +9,7 @@ where
 import Cli.Error (Error (..))
 import Cli.Outcome (failWith)
 import Cli.Output (Exit, Reporter)
-import Cli.OutputFile (writeBytes, writeText)
+import Cli.OutputFile (unlessSource, writeBytes, writeText)
 import Cli.Progress qualified as Progress
 import Control.Exception (IOException, bracket, try)
 import Control.Monad (zipWithM_)
@@ -50,7 +50,9 @@ writeDrawing reporter name sources wanted svg = writePages reporter name sources
 -- has all of them, one below the other.
 writePages :: Reporter -> Text -> [FilePath] -> Maybe FilePath -> Text -> [Text] -> IO Exit
 writePages reporter name sources wanted whole pages = case wanted of
-  Just path | NoForm ending <- formOf path -> failWith reporter name (NoSuchForm ending)
+  Just path
+    | NoForm ending <- formOf path ->
+      unlessSource reporter name sources path (failWith reporter name (NoSuchForm ending))
   Just path | Rendered form <- formOf path -> do
     let drawings = case form of
           Pdf -> pages

@@ -8,6 +8,7 @@ module Cli.OutputFile
     numbered,
     writeText,
     writeBytes,
+    unlessSource,
   )
 where
 
@@ -139,8 +140,13 @@ writeText reporter name sources wanted text = case wanted of
 -- | Writes bytes to a file. @name@ is the program's name in reports. @sources@ are the files that
 -- must not be replaced.
 writeBytes :: Reporter -> Text -> [FilePath] -> FilePath -> ByteString -> IO Exit
-writeBytes reporter name sources path bytes = do
+writeBytes reporter name sources path bytes =
+  unlessSource reporter name sources path (writeAll reporter [(path, bytes)])
+
+-- | Does something with an output file, unless it is one of the sources.
+unlessSource :: Reporter -> Text -> [FilePath] -> FilePath -> IO Exit -> IO Exit
+unlessSource reporter name sources path act = do
   clash <- overwritten sources [path]
   case clash of
     Just same -> failWith reporter name (OverwritesProgram (Text.pack same))
-    Nothing -> writeAll reporter [(path, bytes)]
+    Nothing -> act

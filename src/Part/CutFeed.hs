@@ -56,8 +56,8 @@ perMinuteAlong s f = case f of
 -- are not known.
 --
 -- At the radius r the spindle makes n(r) turns per minute. A cut with d mm for each turn takes the
--- time ∫ ds \/ (d · n(r)), so the mean is 1 \/ mean(1 \/ n(r)). It is taken at 'radiusSamples' points
--- at equal distances along the segment.
+-- time ∫ ds \/ (d · n(r)), so the mean is 1 \/ mean(1 \/ n(r)). It is taken at 'radiusSamples'
+-- points at equal distances along the segment.
 turnsAlong :: Segment -> SpindleRate -> Double
 turnsAlong s rate = case rate of
   NoRate -> 0

@@ -82,10 +82,9 @@ timed machine control place f isFollowed = (m, place')
     asked' = FramePath.askedFeed machine f
     v = fromMaybe 0 (path >>= \p -> FramePath.feedAlong machine p asked') / 60
     (whole, braking) = maybe (0, 0) (\p -> travelTime machine control p long v) path
-    lasts = case corners control of
-      Blending | isFollowed -> whole - braking
-      Blending -> whole
-      ExactStop -> whole
+    lasts
+      | corners control == Blending && isFollowed = whole - braking
+      | otherwise = whole
     end = startsAt place + lasts + dwelt
     Seconds dwelt = Machine.dwellIn machine (Frame.commands f)
     d = maybe (Pulses5 0 0 0 0 0) FramePath.endOf path
