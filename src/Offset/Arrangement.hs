@@ -16,9 +16,12 @@
 module Offset.Arrangement
   ( Arrangement,
     arrange,
+    arrangeWeighted,
     windingNumbers,
     intersectingSegments,
     loops,
+    BoundaryEdge (..),
+    boundary,
   )
 where
 
@@ -69,13 +72,20 @@ data Arrangement = Arrangement
 -- boxes, each enlarged by at least the tolerance (mm). Points whose coordinates differ by at most
 -- four tolerances become one node. Nothing when the winding numbers contradict each other.
 arrange :: Double -> ClosedPolyarcs -> SegmentBoxTree -> Maybe Arrangement
-arrange tolerance c boxes
+arrange = arrangeWeighted (const 1)
+
+-- | Does the same for polyarcs with weights, by the number of their segments: a point has the sum
+-- of the products of each polyarc's weight and winding number. The weights are positive.
+arrangeWeighted ::
+  (Int -> Int) -> Double -> ClosedPolyarcs -> SegmentBoxTree -> Maybe Arrangement
+arrangeWeighted weight tolerance c boxes
   | isConsistent arrangement = Just arrangement
   | otherwise = Nothing
   where
     (cuts, pairs) = intersections tolerance c boxes
     (coordinates, nodeOf, cutNodes) = nodesOf tolerance c cuts
-    found = Vector.fromList (merged tolerance coordinates (slices c coordinates nodeOf cutNodes))
+    cut = slices c coordinates nodeOf cutNodes
+    found = Vector.fromList (merged weight tolerance coordinates cut)
     ordered = HalfEdge.ringsOf coordinates found
     arrangement =
       Arrangement
@@ -219,9 +229,15 @@ alongChord c coordinates i node =
           + (y - indexPrimArray (ClosedPolyarcs.ys c) i) * dy
 
 -- | Merges slices (first node, last node, segment, bulge) between the same nodes with the same
--- sagitta into one edge. Slices cancel and give no edge if equally many run in both directions.
-merged :: Double -> Vector (Double, Double) -> [(Int, Int, Int, Double)] -> [ArrangementEdge]
-merged tolerance coordinates cut =
+-- sagitta into one edge, whose multiplicity is the sum of the segments' weights. Slices cancel and
+-- give no edge if those in both directions have equal weights.
+merged ::
+  (Int -> Int) ->
+  Double ->
+  Vector (Double, Double) ->
+  [(Int, Int, Int, Double)] ->
+  [ArrangementEdge]
+merged weight tolerance coordinates cut =
   concatMap
     (edgesOf . Bifunctor.first (`divMod` nodeCount))
     ( IntMap.toList
@@ -235,7 +251,7 @@ merged tolerance coordinates cut =
   where
     nodeCount = Vector.length coordinates
     edgesOf ((a, b), list) = case list of
-      [one] -> [edge a b 1 one]
+      [one@(_, i, _)] -> [edge a b (weight i) one]
       _ -> concatMap (bundle a b) (bySagitta (sortOn rise list))
       where
         rise (_, _, g) = g * chordOf a b / 2
@@ -257,7 +273,7 @@ merged tolerance coordinates cut =
       LT -> [edge a b (-net) one | one : _ <- [sortOn second [s | s@(False, _, _) <- list]]]
       where
         second (_, i, _) = i
-        net = sum [if forth then 1 else -1 | (forth, _, _) <- list] :: Int
+        net = sum [if forth then weight i else -(weight i) | (forth, i, _) <- list]
 
 -- | The winding number on the left of every edge. It is propagated over each connected component
 -- from the component's outer face.
@@ -425,6 +441,75 @@ loops sense wanted a =
     rotated loop = case span (onSameSegment (last loop)) loop of
       (front, rest) | not (null rest) -> rest <> front
       _ -> loop
+
+-- | An edge on the boundary of a region that lies on the edge's left.
+data BoundaryEdge = BoundaryEdge
+  { -- | x and y of the beginning, in mm
+    begin :: (Double, Double),
+    -- | @tan(sweep/4)@, 0 for a line
+    edgeBulge :: Double,
+    -- | the number of a segment along which the edge runs
+    alongSegment :: Int,
+    -- | false if the edge runs against the direction of this segment
+    isForward :: Bool
+  }
+
+-- | The closed loops around the region of all faces whose winding numbers satisfy @isInside@. The
+-- region lies on the left of each loop. No loop visits a node twice. Nothing when a loop does not
+-- close.
+boundary :: (Int -> Bool) -> Arrangement -> Maybe [NonEmpty BoundaryEdge]
+boundary isInside a =
+  map (fmap (boundaryEdge a)) . concatMap (simpleLoops a) <$> closedLoops (IntSet.fromList kept)
+  where
+    kept = filter isKept [0 .. 2 * Vector.length (edges a) - 1]
+    isKept h = let (l, r) = sides a h in isInside l && not (isInside r)
+    closedLoops left = case IntSet.minView left of
+      Nothing -> Just []
+      Just (h, rest) -> do
+        (loop, rest') <- follow h h rest
+        (loop :) <$> closedLoops rest'
+    follow start h rest = case next h of
+      Just h'
+        | h' == start -> Just ([h], rest)
+        | IntSet.member h' rest -> do
+          (more, rest') <- follow start h' (IntSet.delete h' rest)
+          Just (h : more, rest')
+      _ -> Nothing
+    -- The half-edge after @h@ around the same face of the region: the first one that is kept,
+    -- clockwise from the reversed @h@.
+    next h = listToMaybe (filter isKept (takeWhile (/= back) (drop 1 (iterate clockwise back))))
+      where
+        back = HalfEdge.twin h
+    clockwise = HalfEdge.neighbour (edges a) (rings a) (-1)
+
+-- | Divides a loop of half-edges where it visits a node again.
+simpleLoops :: Arrangement -> [Int] -> [NonEmpty Int]
+simpleLoops a = go IntSet.empty []
+  where
+    -- @seen@ has the nodes at which the half-edges of @open@ begin, of which the last one is first.
+    go seen open halves = case halves of
+      [] -> maybe [] (pure . NonEmpty.reverse) (NonEmpty.nonEmpty open)
+      h : more
+        | IntSet.member node seen,
+          (front, e : rest) <- span ((/= node) . nodeOf) open,
+          loop <- NonEmpty.reverse (foldr NonEmpty.cons (e :| []) front) ->
+          loop : go (IntSet.insert node (foldr (IntSet.delete . nodeOf) seen loop)) (h : rest) more
+        | otherwise -> go (IntSet.insert node seen) (h : open) more
+        where
+          node = nodeOf h
+    nodeOf = HalfEdge.startNode (edges a)
+
+-- | A half-edge as an edge of a boundary.
+boundaryEdge :: Arrangement -> Int -> BoundaryEdge
+boundaryEdge a h =
+  BoundaryEdge
+    { begin = nodes a Vector.! HalfEdge.startNode (edges a) h,
+      edgeBulge = if even h then bulge e else -(bulge e),
+      alongSegment = segment e,
+      isForward = even h
+    }
+  where
+    e = edges a Vector.! (h `div` 2)
 
 -- | Loops as flat arrays. Each vertex has x, y, the bulge of the segment that starts there, and the
 -- number of the raw segment from which that segment was cut.
