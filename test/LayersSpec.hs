@@ -54,7 +54,7 @@ table =
     Layer Folder "Checked" (Only ["Surface"]),
     Layer Folder "Geometry" (Only ["Base"]),
     Layer Folder "Offset" (Only ["Geometry"]),
-    Layer Folder "Part" (Only ["Checked", "Geometry"]),
+    Layer Folder "Part" (Only ["Checked", "Geometry", "Offset"]),
     Layer Folder "Sheet" (Only ["Base", "Report", "Surface", "Part", "Geometry"]),
     Layer Folder "Toolpath" (Only ["Part", "Offset"]),
     Layer Folder "Machine" (Only ["Base", "Report"]),

@@ -15,6 +15,7 @@ module Checked.Builtin
     unlabelled,
     isOverloaded,
     isConstant,
+    mayBeHidden,
     names,
     name,
     formText,
@@ -90,6 +91,20 @@ name builtin = case builtin of
   DirectionOf -> "direction_of"
   RadiusOf -> "radius_of"
   LengthOf -> "length_of"
+  RegionOf -> "region"
+  UnionOf -> "union"
+  DifferenceOf -> "difference"
+  OffsetOf -> "offset_of"
+  OutlinesOf -> "outlines_of"
+  HolesOf -> "holes_of"
+  AreaOf -> "area_of"
+  CentroidOf -> "centroid_of"
+  MakeRectangle -> "rectangle"
+  MakeRounded -> "rounded"
+  MakeSlot -> "slot"
+  MakePolygon -> "polygon"
+  MakeEllipse -> "ellipse"
+  MakeGear -> "gear"
   XOf -> "x_of"
   YOf -> "y_of"
   MakeSpline -> "spline"
@@ -137,6 +152,11 @@ name builtin = case builtin of
 isConstant :: Builtin -> Bool
 isConstant builtin = builtin `elem` [Pi, Truth, Falsehood]
 
+-- | May a program define the name of a function for something else? Then it means this below.
+-- Functions of regions and shapes have such names, because older programs use some of them.
+mayBeHidden :: Text -> Bool
+mayBeHidden word = maybe False (`elem` [RegionOf .. MakeGear]) (lookup word)
+
 -- | The forms of a function, with the given unknowns in their types. If several forms still fit a
 -- call when its statement has been checked to the end, the first of them in this list is chosen.
 forms :: Fresh -> Builtin -> [Form]
@@ -151,6 +171,11 @@ forms Fresh {dimension = d, anything} builtin = case builtin of
         b <- [Line, Circle, Curve anything],
         selector <- [] : [[Parameter Rank "" Wrong] | a /= Circle || b /= Circle] <> map pure chosen
     ]
+      <> [ Form [given (word a) a, given (word b) b] PlaneRegion
+           | a <- outlined,
+             b <- outlined,
+             a /= Circle || b /= Circle
+         ]
   CentreOf -> [Form [circle] Type.aPoint]
   Midpoint -> [Form [given "first" Type.aPoint, given "second" Type.aPoint] Type.aPoint]
   Foot -> [Form [point, line] Type.aPoint, Form [point, curve] Type.aPoint]
@@ -200,9 +225,41 @@ forms Fresh {dimension = d, anything} builtin = case builtin of
   RadiusOf -> [Form [circle] Type.len]
   LengthOf ->
     [ Form [given "contour" Contour] Type.len,
+      Form [given "region" PlaneRegion] Type.len,
       Form [line] Type.len,
       Form [given "vector" Type.aVector] Type.len,
       Form [curve] Type.len
+    ]
+  RegionOf -> [Form [given (word t) t] PlaneRegion | t <- outlined <> map ListOf outlined]
+  UnionOf ->
+    [Form [given "first" a, given "second" b] PlaneRegion | a <- outlined, b <- outlined]
+      <> [Form [given "list" (ListOf t)] PlaneRegion | t <- outlined]
+  DifferenceOf ->
+    [ Form [given "whole" a, given "less" b] PlaneRegion
+      | a <- outlined,
+        b <- outlined <> map ListOf outlined
+    ]
+  OffsetOf -> [Form [given (word t) t, given "distance" Type.len] PlaneRegion | t <- outlined]
+  OutlinesOf -> [Form [given "region" PlaneRegion] (ListOf Contour)]
+  HolesOf -> [Form [given "region" PlaneRegion] (ListOf Contour)]
+  AreaOf -> [Form [given (word t) t] area | t <- outlined]
+  CentroidOf -> [Form [given (word t) t] Type.aPoint | t <- outlined]
+  MakeRectangle -> [Form corners Contour | corners <- rectangles]
+  MakeRounded -> [Form (corners <> [radius]) Contour | corners <- rectangles]
+  MakeSlot ->
+    [Form [given "first" Type.aPoint, given "second" Type.aPoint, given "width" Type.len] Contour]
+  MakePolygon ->
+    [ Form [given "points" points] Contour,
+      Form [circle, given "count" Type.number] Contour,
+      Form [circle, given "count" Type.number, given "from" Type.angle] Contour
+    ]
+  MakeEllipse ->
+    [ Form (given "centre" Type.aPoint : map (`given` Type.len) ["first", "second"] <> more) Contour
+      | more <- [[], [angle]]
+    ]
+  MakeGear ->
+    [ Form (given "module" Type.len : given "teeth" Type.number : more) Contour
+      | more <- [[], [given "pressure_angle" Type.angle]]
     ]
   XOf -> [Form [given "point" (Spatial d)] Type.len]
   YOf -> [Form [given "point" (Spatial d)] Type.len]
@@ -289,6 +346,13 @@ forms Fresh {dimension = d, anything} builtin = case builtin of
         Form (given "points" points : more) (Curve (Fields []))
       ]
     points = ListOf Type.aPoint
+    -- The types of values that have an inside.
+    outlined = [Contour, PlaneRegion, Circle]
+    area = Quantity (Dimension.power 2 (Type.dimensionOf Type.len))
+    rectangles =
+      [ [given "first" Type.aPoint, given "opposite" Type.aPoint],
+        [given "corner" Type.aPoint, given "width" Type.len, given "height" Type.len]
+      ]
     word t = Text.unwords (drop 1 (Text.words (Type.describe t)))
     sided title t = [Parameter (Word side) title t | side <- [ToLeft, ToRight]]
     -- The labelled parameters of a construction that may have several solutions. The argument of
@@ -316,6 +380,7 @@ forms Fresh {dimension = d, anything} builtin = case builtin of
                     Circle,
                     Line,
                     Contour,
+                    PlaneRegion,
                     Curve anything,
                     ListOf (Curve anything),
                     ListOf Type.aPoint,

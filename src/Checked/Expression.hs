@@ -9,6 +9,7 @@ module Checked.Expression
   ( TypingEnvironment (..),
     expect,
     infer,
+    fit,
     operation,
     repetition,
     isBuiltin,
@@ -342,9 +343,10 @@ repetition env counter@(Located _ (Name text)) list = do
   isList <- isEqual (region list) (Type.ListOf t) found
   pure (if isList && found' /= Type.Wrong then t else Type.Wrong, list')
 
--- | Tells if this is the name of a function or a constant of the language.
+-- | Tells if this is the name of a function or a constant of the language that a program cannot
+-- give to something else.
 isBuiltin :: Text -> Bool
-isBuiltin = isJust . Builtin.lookup
+isBuiltin text = isJust (Builtin.lookup text) && not (Builtin.mayBeHidden text)
 
 -- Names
 

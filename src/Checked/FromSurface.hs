@@ -23,6 +23,7 @@ import Checked.ErrorFix (unwritten)
 import Checked.Expression
   ( TypingEnvironment (..),
     expect,
+    fit,
     infer,
     isBuiltin,
     operation,
@@ -41,7 +42,7 @@ import Checked.Syntax (Program (..))
 import Checked.Syntax qualified as Checked
 import Checked.Type (Type)
 import Checked.Type qualified as Type
-import Control.Monad (when)
+import Control.Monad (unless, when)
 import Data.List.NonEmpty (NonEmpty (..))
 import Data.List.NonEmpty qualified as NonEmpty
 import Data.Map.Strict (Map)
@@ -171,12 +172,14 @@ statement env (Located at s) = case s of
   Surface.ProgramNumber e -> one (fmap Checked.ProgramNumber <$> expect env Type.number e)
   Surface.SafeHeight e -> one (fmap Checked.SafeHeight <$> expect env Type.len e)
   Surface.Assert e within -> one (fmap Checked.Assert <$> assertion env e within)
-  Surface.Mill e side options -> one (machining env Checked.Mill "mill" e side options)
-  Surface.Turn e side options -> one (machining env Checked.Turn "turn" e side options)
+  Surface.Mill e side options ->
+    one (machining env Checked.Mill "mill" (outlined env e) side options)
+  Surface.Turn e side options ->
+    one (machining env Checked.Turn "turn" (expect env Type.Contour e) side options)
   Surface.Pocket e stepover options ->
     one $
       (\e' stepover' o sol -> Checked.Pocket (e' sol) (stepover' sol) (o sol))
-        <$> expect env Type.Contour e
+        <$> outlined env e
           <*> expect env Type.len stepover
           <*> Settings.check env "pocket" options
   Surface.Drill points depth options ->
@@ -398,19 +401,27 @@ meaningOf binding = case binding of
 
 -- Settings, motions and commands
 
--- | Checks a machining statement. @keyword@ is its first word, @e@ the expression of its contour,
--- and @options@ are the settings in its block. @make@ builds the checked statement.
+-- | Checks an expression that must be a contour or a region.
+outlined :: TypingEnvironment -> Surface.Expr -> Infer (Deferred Checked.Expr)
+outlined env e = do
+  (t, e') <- infer env e
+  found <- Inference.resolved t
+  unless (found == Type.PlaneRegion) (fit Type.Contour e t)
+  pure e'
+
+-- | Checks a machining statement. @keyword@ is its first word, @e@ the check of its contour, and
+-- @options@ are the settings in its block. @make@ builds the checked statement.
 machining ::
   TypingEnvironment ->
   (Checked.Expr -> Located Surface.Side -> Checked.Settings -> Checked.Statement_) ->
   Text ->
-  Surface.Expr ->
+  Infer (Deferred Checked.Expr) ->
   Located Surface.Side ->
   [Surface.Setting] ->
   Infer (Deferred Checked.Statement_)
 machining env make keyword e side options =
   (\e' o sol -> make (e' sol) side (o sol))
-    <$> expect env Type.Contour e
+    <$> e
       <*> Settings.check env keyword options
 
 -- | Gives a stop of a @rapid@ statement the rapid speed, unless the stop has a feed of its own. A

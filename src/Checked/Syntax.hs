@@ -23,6 +23,7 @@ module Checked.Syntax
     Settings (..),
     Expr,
     Expr_ (..),
+    namesIn,
     Argument (..),
     Item,
     Item_ (..),
@@ -55,10 +56,11 @@ where
 import Base.Name (Name)
 import Base.NumberTable (NumberTable)
 import Base.Quantity (LengthUnit)
-import Base.Region (Located, Region)
+import Base.Region (Located (..), Region)
 import Checked.Dimension (Dimension)
 import Checked.Type (Type)
 import Data.List.NonEmpty (NonEmpty)
+import Data.List.NonEmpty qualified as NonEmpty
 import Data.Text (Text)
 import Surface.Syntax
   ( Closure (..),
@@ -316,6 +318,20 @@ data Builtin
   | DirectionOf
   | RadiusOf
   | LengthOf
+  | RegionOf
+  | UnionOf
+  | DifferenceOf
+  | OffsetOf
+  | OutlinesOf
+  | HolesOf
+  | AreaOf
+  | CentroidOf
+  | MakeRectangle
+  | MakeRounded
+  | MakeSlot
+  | MakePolygon
+  | MakeEllipse
+  | MakeGear
   | XOf
   | YOf
   | MakeSpline
@@ -408,3 +424,25 @@ data Stop = Stop {point :: Expr, pace :: Pace}
 -- feed of its own.
 data Pace = Cutting | Rapid | AtFeed CutFeedExpr
   deriving stock (Eq, Show)
+
+-- | The names of values in an expression, with repetitions.
+namesIn :: Expr -> [Name]
+namesIn (Located _ e) = case e of
+  Number _ -> []
+  Variable name -> [name]
+  Apply _ arguments -> concatMap namesIn (NonEmpty.toList arguments)
+  Builtin _ arguments -> concat [namesIn x | a <- arguments, x <- given a]
+  Negate x -> namesIn x
+  Not x -> namesIn x
+  Binary _ a b -> concatMap namesIn [a, b]
+  Range a b step -> concatMap namesIn (a : b : maybe [] pure step)
+  If a b c -> concatMap namesIn [a, b, c]
+  Pair a b -> concatMap namesIn [a, b]
+  Triple a b c -> concatMap namesIn [a, b, c]
+  List items -> concatMap namesIn items
+  Each item _ list -> concatMap namesIn [item, list]
+  where
+    given a = case a of
+      Given x -> [x]
+      Chosen _ x -> [x]
+      Ranked _ -> []

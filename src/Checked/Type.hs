@@ -37,6 +37,8 @@ data Type
   | Circle
   | Line
   | Contour
+  | -- | a region that closed contours bound
+    PlaneRegion
   | -- | true or false
     Boolean
   | -- | a point with a height
@@ -116,6 +118,7 @@ describe t = case t of
   Circle -> "a circle"
   Line -> "a line"
   Contour -> "a contour"
+  PlaneRegion -> "a region"
   Boolean -> "true or false"
   SpacePoint -> "a point with a height"
   Transformation -> "a transformation"
@@ -128,6 +131,7 @@ describe t = case t of
     Circle -> "a list of circles"
     Line -> "a list of lines"
     Contour -> "a list of contours"
+    PlaneRegion -> "a list of regions"
     Curve _ -> "a list of curves"
     ListOf _ | Just items <- Text.stripPrefix "a list" (describe item) -> "a list of lists" <> items
     _ -> "a list"
@@ -191,6 +195,7 @@ components t = case t of
   Circle -> []
   Line -> []
   Contour -> []
+  PlaneRegion -> []
   Boolean -> []
   SpacePoint -> []
   Transformation -> []
@@ -211,6 +216,7 @@ substitute dimension unknown t = case t of
   Circle -> t
   Line -> t
   Contour -> t
+  PlaneRegion -> t
   Boolean -> t
   SpacePoint -> t
   Transformation -> t

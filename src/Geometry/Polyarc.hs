@@ -14,6 +14,7 @@ module Geometry.Polyarc
     closeGaps,
     signedArea,
     areaOf,
+    firstMoment,
   )
 where
 
@@ -22,6 +23,7 @@ import Data.List.NonEmpty (NonEmpty (..))
 import Data.List.NonEmpty qualified as NonEmpty
 import Geometry.Segment (Segment (..))
 import Geometry.Segment qualified as Segment
+import Geometry.Vec (Point, Vec)
 import Geometry.Vec qualified as Vec
 import Prelude hiding (length, reverse)
 
@@ -104,3 +106,33 @@ areaOf get (first :| others) = go 0 first others
       Arc {start, centre, sweep = Rad a} ->
         let v = Vec.to centre start in Vec.dot v v * (a - sin a) / 2
 {-# INLINE areaOf #-}
+
+-- | The first moment of the area that a closed polyarc encloses, about the point @o@, in mm³: the
+-- area times the vector from @o@ to the centre of gravity. It has the sign of 'signedArea'.
+--
+-- Each segment contributes a triangle with the corner @o@, and an arc also the region between
+-- itself and its chord. The centre of gravity of this region lies @4·r·sin³(φ\/2) \/ 3·(φ − sin φ)@
+-- from the arc's centre. Of a flat arc it lies two fifths of the sagitta from the chord, as in a
+-- parabola, and the area is two thirds of chord times sagitta.
+firstMoment :: Point -> Polyarc -> Vec
+firstMoment o (Polyarc _ ss) = foldr (Vec.add . moment) (Vec.vec 0 0) (NonEmpty.toList ss)
+  where
+    moment s = Vec.add (triangle (start s) (end s)) (beyondChord s)
+    triangle a b =
+      let (u, v) = (Vec.to o a, Vec.to o b)
+       in Vec.scale (Vec.cross u v / 6) (Vec.add u v)
+    beyondChord s = case s of
+      Straight _ _ -> Vec.vec 0 0
+      Arc {start = a, end = b, centre, sweep = Rad w}
+        | abs w < 1e-3 ->
+          let chord = Vec.to a b
+              out = Vec.scale (Segment.bulge s / 2) (Vec.negate (Vec.left chord))
+              from = Vec.add (Vec.to o (Vec.interpolate 0.5 a b)) (Vec.scale 0.4 out)
+           in Vec.scale (2 / 3 * Vec.cross out chord) from
+        | otherwise ->
+          let Mm r = Segment.radius centre a
+              h = abs w / 2
+              q = 4 * r * sin h ^ (3 :: Int) / (3 * (abs w - sin (abs w)))
+              middle = Vec.rotate (Rad (w / 2)) (Vec.to centre a)
+              from = Vec.add (Vec.to o centre) (Vec.scale (q / r) middle)
+           in Vec.scale (r * r * (w - sin w) / 2) from

@@ -79,7 +79,7 @@ arrange = arrangeWeighted (const 1)
 arrangeWeighted ::
   (Int -> Int) -> Double -> ClosedPolyarcs -> SegmentBoxTree -> Maybe Arrangement
 arrangeWeighted weight tolerance c boxes
-  | isConsistent arrangement = Just arrangement
+  | all (isOnSegment tolerance c) cuts && isConsistent arrangement = Just arrangement
   | otherwise = Nothing
   where
     (cuts, pairs) = intersections tolerance c boxes
@@ -97,6 +97,19 @@ arrangeWeighted weight tolerance c boxes
           lefts = propagated coordinates found ordered,
           proper = pairs
         }
+
+-- | True if a cut lies on its segment's line or circle. Where two circles nearly coincide, the
+-- computed intersection may lie far from both.
+isOnSegment :: Double -> ClosedPolyarcs -> (Int, Double, Double) -> Bool
+isOnSegment tolerance c (i, x, y)
+  | indexPrimArray (ClosedPolyarcs.bulges c) i == 0 =
+    ClosedPolyarcs.chord c i $ \dx dy ->
+      let ax = x - indexPrimArray (ClosedPolyarcs.xs c) i
+          ay = y - indexPrimArray (ClosedPolyarcs.ys c) i
+       in abs (dx * ay - dy * ax) <= most * sqrt (dx * dx + dy * dy)
+  | otherwise = abs (ClosedPolyarcs.power c i x y) <= most * ClosedPolyarcs.diameter c i
+  where
+    most = 100 * tolerance
 
 -- | The points at which segments are cut, and the pairs of segments that cross between their ends.
 -- Each cut has the number of the segment, and x and y of the point in mm.

@@ -47,7 +47,7 @@ data BooleanOperation
   = -- | the points of at least one region
     Union
   | -- | the points of all regions
-    Intersection
+    Common
   | -- | the points of the first region that are in none of the others
     Difference
   deriving stock (Eq, Show, Enum, Bounded)
@@ -120,7 +120,7 @@ firstJust attempt rounding = listToMaybe (mapMaybe attempt (take 6 (iterate (* 1
 rule :: BooleanOperation -> Int -> ([Int], Int -> Bool)
 rule operation n = case operation of
   Union -> (replicate n 1, (>= 1))
-  Intersection -> (replicate n 1, (>= n))
+  Common -> (replicate n 1, (>= n))
   -- The others weigh less than the first one even together.
   Difference -> (n : replicate (n - 1) 1, (== n))
 

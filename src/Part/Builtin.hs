@@ -15,6 +15,7 @@ import Base.Quantity (Mm (..), Rad (..))
 import Base.Region (Region)
 import Checked.Syntax (Builtin (..), Operator (..))
 import Data.Foldable (asum)
+import Data.List.NonEmpty qualified as NonEmpty
 import Data.Maybe (fromMaybe)
 import Data.Vector qualified as Vector
 import Geometry.Carrier (Circle (..), Line (..))
@@ -32,7 +33,9 @@ import Part.Evaluation (Eval)
 import Part.Evaluation qualified as Evaluation
 import Part.Parameter (Domain (..))
 import Part.Parameter qualified as Parameter
-import Part.Part (Contour (..), Element (..))
+import Part.Part (Contour (..), Element (..), reversedContour)
+import Part.PlaneRegion qualified as PlaneRegion
+import Part.RegionBuiltin qualified as RegionBuiltin
 import Part.Value
 
 -- Operators
@@ -74,6 +77,7 @@ apply region builtin arguments =
     asum
       [ numeric region builtin arguments,
         ofList region builtin arguments,
+        RegionBuiltin.apply region builtin arguments,
         ConstructionBuiltin.apply region builtin arguments,
         transformation region builtin arguments,
         CurveBuiltin.apply region builtin arguments
@@ -210,14 +214,24 @@ image region s v = case v of
     let d@(Circle o (Mm r)) = Transformation.circle s c
      in CircleValue d <$ (reachable o *> within region r)
   LineValue l -> let m = Transformation.line s l in LineValue m <$ reachable (from m)
-  ContourValue c -> do
-    let moved e = e {segment = Transformation.segment s (segment e)}
-        d = c {elements = fmap moved (elements c), writtenElements = []}
-    mapM_ (reachable . Segment.end . segment) (elements d)
-    pure (ContourValue d)
+  ContourValue c ->
+    ContourValue (moved c) <$ mapM_ (reachable . Segment.end . segment) (elements (moved c))
+  RegionValue r -> do
+    let -- A reflection turns the contours round.
+        upright c = if Transformation.mirrors s then reversedContour (moved c) else moved c
+        image' = PlaneRegion.mapContours upright r
+    mapM_
+      (reachable . Segment.end . segment)
+      [e | c <- PlaneRegion.contoursOf image', e <- NonEmpty.toList (elements c)]
+    pure (RegionValue image')
   ListValue vs -> ListValue <$> traverse (image region s) vs
   CurveValue c ->
     let d = Curve.transformed s c in CurveValue d <$ mapM_ reachable (Curve.ends d)
   _ -> bug "a transformation of something else"
   where
+    moved c =
+      c
+        { elements = fmap (\e -> e {segment = Transformation.segment s (segment e)}) (elements c),
+          writtenElements = []
+        }
     reachable = within region . Vec.norm . offset

@@ -8,7 +8,7 @@ where
 
 import Base.Crash (bug)
 import Base.Name (Name)
-import Base.Quantity (Mm (..), minus)
+import Base.Quantity (Mm (..), Rad (..), minus)
 import Base.Region (Located (..), Region)
 import Checked.Syntax (Item, Item_ (..), Modifier_ (..))
 import Checked.Syntax qualified as Checked
@@ -55,7 +55,7 @@ import Part.Value qualified as Value
 -- faults of the links.
 contour :: Environment -> Located Name -> Located Checked.Closure -> [Item] -> Eval Contour
 contour env name closure items = do
-  linked <- Evaluation.collect (item env) items
+  linked <- Evaluation.collect (item env isWhole) items
   case NonEmpty.nonEmpty linked of
     Nothing -> Evaluation.mistake (InContour (EmptyContour (region name) (value name)))
     Just some -> case LinkSolver.solve (region name) (Located (region closure) ends) some of
@@ -69,6 +69,10 @@ contour env name closure items = do
     ends = case value closure of
       Checked.Open -> Open
       Checked.Closed -> Closed
+    -- A closed contour can be the only element of another closed one.
+    isWhole = case items of
+      [Located _ Element {}] -> ends == Closed
+      _ -> False
 
 -- | Makes the record of an element as the program wrote it. The ends and the bevels of the linked
 -- element are left out.
@@ -83,22 +87,22 @@ asWritten w =
     }
 
 -- | The elements that one item of a contour's body gives. A repetition gives the elements of its
--- body once for every value of its list. An open contour that is used as an element gives several
--- elements, too.
-item :: Environment -> Item -> Eval [LinkSolver.LinkedElement]
-item env (Located at i) = case i of
+-- body once for every value of its list. A contour that is used as an element gives several
+-- elements, too. The flag is true if the contour may be closed.
+item :: Environment -> Bool -> Item -> Eval [LinkSolver.LinkedElement]
+item env isWhole (Located at i) = case i of
   For name list body -> do
     vs <- Expression.items <$> Expression.evaluate env list
-    Evaluation.collect (\v -> Evaluation.collect (item (Expression.bind name v env)) body) vs
+    Evaluation.collect (\v -> Evaluation.collect (item (Expression.bind name v env) False) body) vs
   Choose condition body others -> do
     v <- Expression.evaluate env condition
-    Evaluation.collect (item env) (if Expression.isTrue v then body else others)
+    Evaluation.collect (item env False) (if Expression.isTrue v then body else others)
   Element sense e modifiers link -> do
     v <- Expression.evaluate env e
     finish <- foldl (\before m -> before >>= modified env m) (pure plainFinish) modifiers
     bevel <- bevelOf env v modifiers
     link' <- traverse (linkOf env) link
-    linked <- linkedElements at (region e) sense v finish link'
+    linked <- linkedElements (ItemPlace at (region e) isWhole) sense v finish link'
     pure (if null bevel then linked else map (\w -> w {LinkSolver.bevel}) linked)
 
 -- | Adds the effect of one modifier to the finish (feed, slow-down and allowance) that the earlier
@@ -119,18 +123,22 @@ bevelOf env v modifiers = case [e | Located _ (Bevel e) <- modifiers] of
   [] -> pure []
   e : _ -> Piece.bevelled env (case v of CurveValue c -> Just c; _ -> Nothing) e
 
--- | The elements that a value gives: several for an open contour, otherwise one. @whole@ is the
--- region of the item, @at@ that of the value in it, and @sense@ the sense that the program writes
--- before a circle.
+-- | The place of an item in a contour's body.
+data ItemPlace
+  = -- | the region of the item, that of the value in it, and true if a contour in this place may be
+    -- closed
+    ItemPlace Region Region Bool
+
+-- | The elements that a value gives: several for a contour, otherwise one. @sense@ is the sense
+-- that the program writes before a circle.
 linkedElements ::
-  Region ->
-  Region ->
+  ItemPlace ->
   Maybe Part.Sense ->
   Value ->
   Finish ->
   Maybe (Region, Link) ->
   Eval [LinkSolver.LinkedElement]
-linkedElements whole at sense v finish link = case (v, sense) of
+linkedElements (ItemPlace whole at mayBeClosed) sense v finish link = case (v, sense) of
   (CircleValue c, Just Checked.Clockwise) -> one (OnCircle Clockwise c) Nothing Nothing
   (CircleValue c, Just Checked.CounterClockwise) ->
     one (OnCircle CounterClockwise c) Nothing Nothing
@@ -140,7 +148,9 @@ linkedElements whole at sense v finish link = case (v, sense) of
     let ends' = Curve.ends c
      in one (OnCurve (Curve.approximation c)) (listToMaybe ends') (listToMaybe (drop 1 ends'))
   (ContourValue c, Nothing) -> case ends c of
-    Closed -> Evaluation.mistake (InContour (ClosedElement at (value (contourName c))))
+    Closed
+      | mayBeClosed -> pure (elementsOfClosed whole at finish link (NonEmpty.toList (elements c)))
+      | otherwise -> Evaluation.mistake (InContour (ClosedElement at (value (contourName c))))
     Open -> pure (elementsOfContour whole at finish link (NonEmpty.toList (elements c)))
   _ -> bug "a value that is no element where one was checked"
   where
@@ -177,6 +187,35 @@ elementsOfContour whole at finish link segments = case Part.curveRuns segments o
   curves -> zipWith (elementOfRun whole finish) curves (map fixed (init curves) <> [link])
   where
     fixed curve = Just (at, Fixed (Segment.end (Part.segment (NonEmpty.last curve))))
+
+-- | The elements of a closed contour that is the only element of another one. @link@ is at each of
+-- its corners. The arc of a fillet turns as the corner does.
+elementsOfClosed ::
+  Region ->
+  Region ->
+  Finish ->
+  Maybe (Region, Link) ->
+  [Part.Element] ->
+  [LinkSolver.LinkedElement]
+elementsOfClosed whole at finish link segments = case Part.curveRuns segments of
+  [one] -> [elementOfRun whole finish one link]
+  runs -> zipWith run runs (drop 1 runs <> take 1 runs)
+  where
+    run a b = elementOfRun whole finish a (joint a b)
+    joint a b =
+      let p = Part.segment (NonEmpty.last a)
+          Rad turn =
+            Vec.signedAngle
+              (Segment.endDirection p)
+              (Segment.startDirection (Part.segment (NonEmpty.head b)))
+          Rad smooth = Tolerance.smoothAngle
+          sense = if turn > 0 then CounterClockwise else Clockwise
+       in case link of
+            Just (there, l) | abs turn > smooth -> Just (there, turned sense l)
+            _ -> Just (at, Fixed (Segment.end p))
+    turned sense l = case l of
+      Fillet _ r -> Fillet sense r
+      _ -> l
 
 -- | One element, made from a run: the segments of one line, arc or curve. @whole@ is the region of
 -- the item that names the run's contour. 'orElse' combines the

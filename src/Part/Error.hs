@@ -33,6 +33,8 @@ import Part.Parameter qualified as Parameter
 import Part.Part (CutterKind (..))
 import Part.PocketError (PocketMisfit)
 import Part.PocketError qualified as PocketError
+import Part.RegionError (RegionMistake)
+import Part.RegionError qualified as RegionError
 import Report.Fix (Fix)
 import Report.Fix qualified as Fix
 import Report.Report (Label (..), Report (..), at, quote)
@@ -50,7 +52,7 @@ data Error = Error
   deriving stock (Eq, Show)
 
 -- | A mistake in a value, a statement or the geometry. The first field of a constructor is the
--- region that the report points at, and its comment names the other fields in order. The last four
+-- region that the report points at, and its comment names the other fields in order. The last five
 -- constructors contain facts of other modules.
 data ValueFact
   = DivisionByZero Region
@@ -102,6 +104,7 @@ data ValueFact
   | InContour ContourFault
   | InCurve CurveMistake
   | InPocket PocketMisfit
+  | InRegion RegionMistake
   deriving stock (Eq, Show)
 
 -- | A statement that needs cutters of certain kinds.
@@ -262,6 +265,7 @@ factReport unit arguments fact = case fact of
   InContour fault -> ContourError.toReport unit fault
   InCurve fault -> CurveError.toReport unit fault
   InPocket fault -> PocketError.toReport unit fault
+  InRegion fault -> RegionError.toReport unit fault
 
 -- | The sentence that a quantity has the value @x@, which breaks a rule.
 limited :: LengthUnit -> LimitedQuantity -> Text -> Double -> Text
@@ -333,6 +337,8 @@ notWholeReport region number range arguments x =
       Parameter.ItemNumber -> argument 1
       Parameter.TableRowNumber -> Nothing
       Parameter.ListPointNumber -> Nothing
+      Parameter.CornerCount -> argument 1
+      Parameter.ToothCount -> argument 1
 
 -- | The report of a statement for which the tool has the wrong kind. It points at the keyword with
 -- which the statement begins.

@@ -44,6 +44,7 @@ import Part.Error (ValueFact (..))
 import Part.Evaluation (Eval)
 import Part.Evaluation qualified as Evaluation
 import Part.Part (polyarcOf)
+import Part.PlaneRegion qualified as PlaneRegion
 import Part.Value (Value (..))
 import Part.Value qualified as Value
 
@@ -192,12 +193,14 @@ written inUnit dimension v = case v of
   CircleValue (Circle c r) -> "radius " <> Decimal.inUnit inUnit r <> " about " <> place c
   LineValue (Line p q) -> "from " <> place p <> " to " <> place q
   ContourValue c -> "length " <> Decimal.inUnit inUnit (Polyarc.length (polyarcOf c))
+  RegionValue r -> "area " <> written inUnit area (Quantity (PlaneRegion.area r))
   ListValue vs ->
     Decimal.whole (Vector.length vs) <> (if Vector.length vs == 1 then " item" else " items")
   PlacementValue _ -> ""
   TableValue t -> Decimal.whole (NumberTable.count (Curve.rows t)) <> " rows"
   CurveValue c -> "length " <> Decimal.inUnit inUnit (Exact.length (Curve.exact c))
   where
+    area = Dimension.power 2 (Dimension.atom Dimension.Length)
     place = Vec.toText inUnit 4
     word = case Dimension.unitWord inUnit dimension of
       "" -> ""

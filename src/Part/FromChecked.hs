@@ -8,10 +8,11 @@ module Part.FromChecked
 where
 
 import Base.Crash (bug)
-import Base.Name (Name)
+import Base.Name (Name (..))
 import Base.Quantity (LengthUnit, Mm)
 import Base.Region (Located (..), Region)
 import Base.Result (Result (..))
+import Checked.Builtin qualified as Builtin
 import Checked.Dimension (Dimension)
 import Checked.Dimension qualified as Dimension
 import Checked.Syntax (Expr)
@@ -20,7 +21,8 @@ import Data.List (foldl')
 import Data.List.NonEmpty (NonEmpty (..))
 import Data.List.NonEmpty qualified as NonEmpty
 import Data.Map.Strict qualified as Map
-import Data.Maybe (fromMaybe)
+import Data.Maybe (fromMaybe, isJust)
+import Data.Set qualified as Set
 import Data.Text (Text)
 import Geometry.Carrier (Circle (Circle))
 import Geometry.Transformation (Transformation)
@@ -41,6 +43,7 @@ import Part.Measure (feedOf, lengthOf, positive, secondsOf, whole)
 import Part.Parameter qualified as Parameter
 import Part.Part
 import Part.Piece qualified as Piece
+import Part.PlaneRegion qualified as PlaneRegion
 import Part.Transformation qualified as Transformation
 import Part.Value (Value (..))
 
@@ -158,7 +161,9 @@ step state (Located at s) = case s of
       state {number' = Just (Located (region e) n)}
   Checked.SafeHeight e ->
     keep (lengthOf env Parameter.SafeHeight e) (\z -> state {safe' = Just (Located (region e) z)})
-  Checked.LetValue name d e -> keep (Expression.evaluate env e) (define state name d)
+  Checked.LetValue name d e ->
+    keep (named name <$> Expression.evaluate env e) $ \v ->
+      drawn env e v (define state name d v)
   Checked.LetFunction name parameters body -> defineFunction state name parameters body
   Checked.Table name columns ->
     keep (Piece.table env columns) (define state name Dimension.none . TableValue)
@@ -174,11 +179,11 @@ step state (Located at s) = case s of
       (Assertion.check at env assertion *> Assertion.sizes env assertion)
       (\found -> state {sizes' = reverse found <> sizes' state})
   Checked.Mill e side settings ->
-    keep (Machining.milling now Milled at e side settings) (performed Mill)
+    keep (Machining.milling now Milled at e side settings) (eachPerformed Mill)
   Checked.Pocket e stepover settings ->
-    keep (Machining.pocketing now at e stepover settings) (performed Pocket)
+    keep (Machining.pocketing now at e stepover settings) (eachPerformed Pocket)
   Checked.Turn e side settings ->
-    keep (Machining.milling now Turned at e side settings) (performed Mill)
+    keep (Machining.milling now Turned at e side settings) (eachPerformed Mill)
   Checked.Drill points depth settings ->
     keep (Machining.drilling now at points depth settings) (performed Drill)
   Checked.Travel stops ->
@@ -221,6 +226,8 @@ step state (Located at s) = case s of
     changed c = set now {cutter = Just c}
     perform operation = state {operations' = operation : operations' state}
     performed make = maybe state (perform . make . Located at)
+    eachPerformed make found =
+      state {operations' = reverse (maybe [] (map (make . Located at)) found) <> operations' state}
     command = perform . Command . Located at
     keep answer f = run state at answer (\a left -> (f a) {fuel = left})
     within answer block =
@@ -299,6 +306,33 @@ define state name d v =
         { values = Map.insert (value name) v (values env),
           locals = Map.delete (value name) (locals env)
         }
+
+-- | A value with its name on the contours that a function has made.
+named :: Located Name -> Value -> Value
+named name v = case v of
+  ContourValue c | isMade c -> ContourValue c {contourName = name}
+  RegionValue r -> RegionValue (PlaneRegion.mapContours renamed r)
+  _ -> v
+  where
+    isMade c = let Name text = value (contourName c) in isJust (Builtin.lookup text)
+    renamed c = if isMade c then c {contourName = name} else c
+
+-- | Adds the contours of a region, so that it is drawn even if nothing mills it. Those of the
+-- regions of which the expression @e@ makes it are no longer drawn.
+drawn :: Environment -> Expr -> Value -> State -> State
+drawn env e v state = case v of
+  RegionValue r ->
+    state
+      { contours' =
+          reverse (PlaneRegion.contoursOf r) <> filter (not . isOperand) (contours' state)
+      }
+  _ -> state
+  where
+    isOperand c = value (contourName c) `Set.member` operands
+    operands = Set.fromList (filter isRegion (Checked.namesIn e))
+    isRegion n = case Map.lookup n (values env) of
+      Just (RegionValue _) -> True
+      _ -> False
 
 -- | The point that a value is, or the centre of the circle that it is.
 pointOf :: Value -> Maybe Point

@@ -23,11 +23,14 @@ import Checked.Syntax (Expr)
 import Checked.Syntax qualified as Checked
 import Control.Applicative ((<|>))
 import Control.Monad (when)
+import Data.List qualified as List
 import Data.List.NonEmpty (NonEmpty (..))
 import Data.List.NonEmpty qualified as NonEmpty
-import Data.Maybe (isJust)
+import Data.Maybe (fromMaybe, isJust)
 import Data.Vector qualified as Vector
+import Geometry.Segment qualified as Segment
 import Geometry.Tolerance qualified as Tolerance
+import Geometry.WindingNumber qualified as WindingNumber
 import Part.ContourElement qualified as ContourElement
 import Part.ContourError (ContourFault (OpenBegins))
 import Part.CurveError (CurveMistake (SteepBevel))
@@ -41,8 +44,11 @@ import Part.Measure (feedOf, lengthOf, notNegative, whole)
 import Part.Parameter (Range (UpTo))
 import Part.Parameter qualified as Parameter
 import Part.Part
+import Part.PlaneRegion (PlaneRegion (..))
+import Part.PlaneRegion qualified as PlaneRegion
 import Part.PocketCheck qualified as PocketCheck
 import Part.PocketError (PocketMisfit (StepTooWide))
+import Part.RegionError (RegionMistake (EmptyRegion))
 import Part.Value (Value (..))
 
 -- | The names and the settings in force at a statement. A setting that the statement needs is
@@ -58,8 +64,9 @@ data Context = Context
 
 -- Milling and turning
 
--- | Evaluates the milling or turning of a contour. @at@ is the region of the statement, and @e@ the
--- expression of the contour.
+-- | Evaluates the milling or turning of a contour, or the milling of a region. @at@ is the region
+-- of the statement, and @e@ the expression of the contour. A region gives one milling for each of
+-- its contours, those around holes first.
 milling ::
   Context ->
   Work ->
@@ -67,14 +74,42 @@ milling ::
   Expr ->
   Located Side ->
   Checked.Settings ->
-  Eval (Maybe Milling)
+  Eval (Maybe [Milling])
 milling context work at e side settings = do
   v <- Expression.evaluate (environment context) e
   case work of
     Milled -> checkCutter context at MillStatement
     Turned -> checkCutter context at TurnStatement
-  passes <- passesOf context at (contourOf v) settings
-  pure (assembled context work at side settings passes)
+  case v of
+    RegionValue r -> do
+      when (null (PlaneRegion.parts r)) (Evaluation.mistake (InRegion (EmptyRegion (region e))))
+      sequence
+        <$> traverse
+          (uncurry (millingOf context work at settings))
+          ( [(c, beyond side) | p <- PlaneRegion.parts r, c <- PlaneRegion.holes p]
+              <> [(PlaneRegion.outer p, side) | p <- PlaneRegion.parts r]
+          )
+    _ -> fmap pure <$> millingOf context work at settings (contourOf v) side
+
+-- | Evaluates the milling or turning of one contour.
+millingOf ::
+  Context ->
+  Work ->
+  Region ->
+  Checked.Settings ->
+  Contour ->
+  Located Side ->
+  Eval (Maybe Milling)
+millingOf context work at settings c side =
+  assembled context work at side settings <$> passesOf context at c settings
+
+-- | The side of a hole on which the cutter runs if it runs on this side of a region: outside of the
+-- region is inside the hole.
+beyond :: Located Side -> Located Side
+beyond (Located at side) = Located at $ case side of
+  Inside -> Outside
+  Outside -> Inside
+  other -> other
 
 -- | The evaluated contour and settings of a milling or turning statement.
 data Passes = Passes
@@ -222,30 +257,29 @@ checkSteps context at depth heights = case cutter context of
 
 -- Pockets
 
--- | Evaluates the clearing of a pocket: the inside of a closed contour without its islands. @at@ is
--- the region of the statement, @e@ the expression of the outline, and @step@ that of the stepover.
+-- | Evaluates the clearing of a pocket: the inside of a closed contour, or a region, without its
+-- islands. @at@ is the region of the statement, @e@ the expression of the outline, and @step@ that
+-- of the stepover. A region gives one pocket for each of its parts.
 pocketing ::
   Context ->
   Region ->
   Expr ->
   Expr ->
   Checked.Settings ->
-  Eval (Maybe Pocketing)
+  Eval (Maybe [Pocketing])
 pocketing context at e step settings = do
   checkCutter context at PocketStatement
-  wall <- milling context Milled at e (Located (region e) Inside) settings
-  outline' <- named e . contourOf <$> Expression.evaluate env e
+  v <- Expression.evaluate env e
   islands <- concat <$> Evaluation.gather (map islandsOf (Checked.islands settings))
-  stepover <- lengthOf env Parameter.Stepover step
-  Evaluation.spend at (sum [length (elements (PocketCheck.contour c)) | c <- outline' : islands])
-  checkPassCount (region step) (over (PocketCheck.halfWidth outline') stepover)
-  let diameter = times 2 . cutterRadius <$> cutter context
-      tooWide = [StepTooWide (region step) stepover d | Just d <- [diameter], stepover > d]
-      contours' = map PocketCheck.contour islands
-      pocket w = Pocketing {wall = w, islands = contours', stepover}
-  case PocketCheck.misfits diameter outline' islands <> tooWide of
-    [] -> pure (pocket <$> wall)
-    found -> Evaluation.mistakes [Error (InPocket m) [] [] | m <- found]
+  case v of
+    RegionValue (PlaneRegion parts) -> do
+      when (null parts) (Evaluation.mistake (InRegion (EmptyRegion (region e))))
+      let place k = [i | (i, j) <- zip islands (map (partAround parts) islands), j == k]
+          pocket k p =
+            pocketIn context at step settings (named e (PlaneRegion.outer p)) $
+              map (named e) (PlaneRegion.holes p) <> place k
+      sequence <$> traverse (uncurry pocket) (zip [0 ..] parts)
+    _ -> fmap pure <$> pocketIn context at step settings (named e (contourOf v)) islands
   where
     env = environment context
     named i = PocketCheck.Named (region i)
@@ -254,6 +288,43 @@ pocketing context at e step settings = do
       pure $ case v of
         ListValue vs -> map (named i . contourOf) (Vector.toList vs)
         _ -> [named i (contourOf v)]
+
+-- | The index of the part of a region in which an island lies; 0 if it lies in none.
+partAround :: [PlaneRegion.RegionPart] -> PocketCheck.Named -> Int
+partAround parts island =
+  fromMaybe 0 (List.findIndex (\p -> polyarcOf (PlaneRegion.outer p) `encloses` begin) parts)
+  where
+    encloses = WindingNumber.encloses
+    begin = Segment.start (segment (NonEmpty.head (elements (PocketCheck.contour island))))
+
+-- | Evaluates the clearing of one pocket with this outline and these islands.
+pocketIn ::
+  Context ->
+  Region ->
+  Expr ->
+  Checked.Settings ->
+  PocketCheck.Named ->
+  [PocketCheck.Named] ->
+  Eval (Maybe Pocketing)
+pocketIn context at step settings outline islands = do
+  wall <-
+    millingOf
+      context
+      Milled
+      at
+      settings
+      (PocketCheck.contour outline)
+      (Located (PocketCheck.mention outline) Inside)
+  stepover <- lengthOf (environment context) Parameter.Stepover step
+  Evaluation.spend at (sum [length (elements (PocketCheck.contour c)) | c <- outline : islands])
+  checkPassCount (region step) (over (PocketCheck.halfWidth outline) stepover)
+  let diameter = times 2 . cutterRadius <$> cutter context
+      tooWide = [StepTooWide (region step) stepover d | Just d <- [diameter], stepover > d]
+      contours' = map PocketCheck.contour islands
+      pocket w = Pocketing {wall = w, islands = contours', stepover}
+  case PocketCheck.misfits diameter outline islands <> tooWide of
+    [] -> pure (pocket <$> wall)
+    found -> Evaluation.mistakes [Error (InPocket m) [] [] | m <- found]
 
 -- | Fails if the estimated number of passes, @count@, exceeds 10 000. No real pocket needs more.
 checkPassCount :: Region -> Double -> Eval ()

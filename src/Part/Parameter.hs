@@ -51,6 +51,8 @@ data LimitedQuantity
   | Allowance
   | Chamfer
   | FilletRadius
+  | -- | a width, a height, a radius or a module of a shape
+    ShapeSize
   | -- | the depth or the radius of a joggle, which is a local step of an edge
     JoggleMeasure
   | SafeHeight
@@ -85,6 +87,7 @@ name parameter = case parameter of
   Allowance -> "the allowance"
   Chamfer -> "the chamfer"
   FilletRadius -> "the radius of a fillet"
+  ShapeSize -> "a size of a shape"
   JoggleMeasure -> "a measure of a joggle"
   SafeHeight -> "the safe height"
   DwellTime -> "a dwell"
@@ -124,6 +127,10 @@ data WholeNumber
     TableRowNumber
   | -- | the number of a point, from 1, in a list of points that takes the place of a table
     ListPointNumber
+  | -- | the number of corners of a regular polygon
+    CornerCount
+  | -- | the number of teeth of a gear
+    ToothCount
   deriving stock (Eq, Show)
 
 -- | The name that reports use for a whole number.
@@ -142,6 +149,8 @@ wholeName number = case number of
   ItemNumber -> "the number of an item"
   TableRowNumber -> "the number of a row"
   ListPointNumber -> "the number of a point"
+  CornerCount -> "the number of corners"
+  ToothCount -> "the number of teeth"
 
 -- | The range that a whole number must be in: up to a limit, or from one limit to another. The
 -- limits belong to the range.

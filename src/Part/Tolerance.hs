@@ -7,6 +7,8 @@ module Part.Tolerance
     bevel,
     smoothGap,
     smoothTurn,
+    shape,
+    joint,
   )
 where
 
@@ -41,3 +43,11 @@ smoothGap = Mm 1e-3
 -- through measured points do not meet with exactly the same direction.
 smoothTurn :: Rad
 smoothTurn = Rad 1.75e-3
+
+-- | The largest distance of the arcs of an ellipse or of an involute from the exact curve.
+shape :: Mm
+shape = Mm 1e-6
+
+-- | The largest distance between two lines or arcs of a region that become one.
+joint :: Mm
+joint = Mm 1e-9

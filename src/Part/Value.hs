@@ -28,6 +28,7 @@ import Part.Evaluation (Eval)
 import Part.Evaluation qualified as Evaluation
 import Part.Parameter (Range (FromTo), WholeNumber)
 import Part.Part (Contour)
+import Part.PlaneRegion (PlaneRegion)
 
 -- | A value of the language. Numbers are in mm, radians, minutes and turns, or in products of
 -- powers of these units.
@@ -41,6 +42,7 @@ data Value
   | CircleValue Circle
   | LineValue Line
   | ContourValue Contour
+  | RegionValue PlaneRegion
   | ListValue (Vector Value)
   | PlacementValue Transformation
   | TableValue PartTable

@@ -29,8 +29,11 @@ operands = do
   family <- elements [minBound .. maxBound]
   let one = case family of
         OnGrid -> Outline.onIntegers >>= moved onGrid
-        WithArcs -> oneof [Outline.withArcs, Outline.withArcs, Outline.onIntegers] >>= moved anywhere
-        WithNoise -> oneof [Outline.noisy >>= moved anywhere, Outline.onIntegers >>= moved onGrid >>= noise]
+        WithArcs ->
+          frequency [(2, Outline.withArcs), (1, Outline.onIntegers)] >>= moved anywhere
+        WithNoise ->
+          oneof
+            [Outline.noisy >>= moved anywhere, Outline.onIntegers >>= moved onGrid >>= noise]
   Operands family <$> valid one <*> valid one <*> valid one
   where
     onGrid = elements (map (/ 2) [-4 .. 4])

@@ -27,6 +27,7 @@ import Test.Hspec hiding (Example)
 raisedElsewhere :: [(String, [Text])]
 raisedElsewhere =
   [ ("a program that no page holds", ["E0116"]),
+    ("coordinates that rounding only just tells apart", ["E0368"]),
     ("a tape or a file", ["E0601", "E0602", "E0603"]),
     ("a tape that is made, which a check of the program does not do", ["W0507"]),
     ( "an input sheet",

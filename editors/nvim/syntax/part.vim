@@ -20,6 +20,8 @@ syntax match partStatement /\(\<change\>.*)\s*\)\@<=at\>/
 syntax match partStatement /\(^\s*dwell\s.*\)\@<=\<s\ze\s*\(--.*\)\?$/
 syntax match partCutter /\(\<turn(.*,\s*\)\@<=tip\>/
 syntax match partStatement /^\s*\zs\<units\ze\s\+\(mm\|in\)\>/
+syntax keyword partFunction region union difference offset_of outlines_of holes_of area_of centroid_of
+syntax keyword partFunction rectangle rounded slot polygon ellipse gear
 syntax match partUnit /\(^\s*units\s\+\)\@<=\(mm\|in\)\>/
 syntax keyword partRepeat for in if then else and or not
 syntax keyword partWalk cw ccw open closed

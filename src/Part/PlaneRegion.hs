@@ -1,0 +1,250 @@
+-- | Regions of the plane that closed contours bound: unions, differences, intersections and offsets
+-- of them, and their measures.
+--
+-- A region consists of connected parts. The outer contour of a part is counter-clockwise, and the
+-- contours around its holes are clockwise, so the region lies on the left of all of them. Their
+-- elements are those of the contours of which the region is made.
+module Part.PlaneRegion
+  ( PlaneRegion (..),
+    RegionPart (..),
+    RegionFault (..),
+    contoursOf,
+    inside,
+    combined,
+    offsetBy,
+    area,
+    centroid,
+    renamed,
+    mapContours,
+  )
+where
+
+import Base.Name (Name)
+import Base.Quantity (Mm (..), Rad (..))
+import Base.Region (Located (..), Region)
+import Data.Bifunctor qualified as Bifunctor
+import Data.List.NonEmpty (NonEmpty (..))
+import Data.List.NonEmpty qualified as NonEmpty
+import Data.Maybe (catMaybes)
+import Data.Vector (Vector)
+import Data.Vector qualified as Vector
+import Geometry.Carrier (Side (..))
+import Geometry.FlatPolyarc qualified as FlatPolyarc
+import Geometry.Polyarc (Ends (Closed, Open), Polyarc)
+import Geometry.Polyarc qualified as Polyarc
+import Geometry.Segment (Segment (..))
+import Geometry.Segment qualified as Segment
+import Geometry.Vec (Point)
+import Geometry.Vec qualified as Vec
+import Offset.Kernel qualified as Kernel
+import Offset.Loop qualified as Loop
+import Offset.RegionBoolean (BooleanFault (..), BooleanOperation, ResultSegment (isForward, source))
+import Offset.RegionBoolean qualified as RegionBoolean
+import Part.Part (Contour (..), Element (..), plainFinish, polyarcOf, reversedContour)
+import Part.Part qualified as Part
+import Part.Tolerance qualified as Tolerance
+
+-- | A region, which may be empty.
+newtype PlaneRegion = PlaneRegion {parts :: [RegionPart]}
+  deriving stock (Eq, Show)
+
+-- | A connected part of a region.
+data RegionPart = RegionPart {outer :: Contour, holes :: [Contour]}
+  deriving stock (Eq, Show)
+
+-- | A reason why there is no such region.
+data RegionFault
+  = -- | an open contour
+    OpenOutline Contour
+  | -- | two elements of a contour that cross
+    OutlineCrosses Contour Element Element
+  | -- | rounding decides
+    RegionUndecided
+  deriving stock (Eq, Show)
+
+-- | All contours of a region, in the directions in which they have it on their left.
+contoursOf :: PlaneRegion -> [Contour]
+contoursOf (PlaneRegion ps) = concat [outer p : holes p | p <- ps]
+
+-- | The region inside a closed contour of either direction.
+inside :: Contour -> Either RegionFault PlaneRegion
+inside c
+  | ends c == Open = Left (OpenOutline c)
+  | otherwise = case RegionBoolean.oriented whole of
+    Left (CrossesItself i j) -> Left (OutlineCrosses c (element i) (element j))
+    Left Undecided -> Left RegionUndecided
+    Right Nothing -> Right (PlaneRegion [])
+    Right (Just sound)
+      | sound == whole -> Right (PlaneRegion [RegionPart c []])
+      | otherwise -> Right (PlaneRegion [RegionPart (reversedContour c) []])
+  where
+    whole = polyarcOf c
+    element i = NonEmpty.toList (elements c) !! i
+
+-- | The result of a boolean operation, with a name for its contours.
+combined ::
+  Located Name -> BooleanOperation -> [PlaneRegion] -> Either RegionFault PlaneRegion
+combined name operation regions =
+  Bifunctor.first (const RegionUndecided) $
+    made . RegionBoolean.nested RegionBoolean.segment
+      <$> RegionBoolean.combine operation (map (map polyarcOf) contours)
+  where
+    contours = map contoursOf regions
+    sources = sourcesOf (concat contours)
+    made = PlaneRegion . map (\(o, hs) -> RegionPart (contourOf o) (map contourOf hs))
+    contourOf loop =
+      Contour
+        { contourName = name,
+          ends = Closed,
+          elements = joinedElements (elementsOf sources (begunAtSource sources loop)),
+          writtenElements = []
+        }
+
+-- | An element of an operand, with the numbers of the first and of the last element of its contour.
+data Source = Source {written :: Element, firstOfContour, lastOfContour :: Int}
+
+sourcesOf :: [Contour] -> Vector Source
+sourcesOf contours = Vector.fromList (go 0 contours)
+  where
+    go _ [] = []
+    go k (c : more) =
+      let n = NonEmpty.length (elements c)
+       in [Source e k (k + n - 1) | e <- NonEmpty.toList (elements c)] <> go (k + n) more
+
+-- | The loop from the segment on that comes first in the operands, if possible from its beginning.
+begunAtSource :: Vector Source -> NonEmpty ResultSegment -> NonEmpty ResultSegment
+begunAtSource sources loop = case break isFirst (NonEmpty.toList loop) of
+  (front, s : rest) -> s :| rest <> front
+  (_, []) -> loop
+  where
+    isFirst r = key r == minimum (fmap key loop)
+    key r = (source r, not (beginsWithSource sources r))
+
+-- | True if a part of a segment begins where the whole segment begins in its direction.
+beginsWithSource :: Vector Source -> ResultSegment -> Bool
+beginsWithSource sources r = Segment.start (RegionBoolean.segment r) == begin
+  where
+    whole = Part.segment (written (sources Vector.! source r))
+    begin = if isForward r then Segment.start whole else Segment.end whole
+
+-- | The segments of a loop as elements, each with the number of the operand's contour.
+elementsOf :: Vector Source -> NonEmpty ResultSegment -> NonEmpty (Int, Element)
+elementsOf sources loop = NonEmpty.zipWith element before loop
+  where
+    before = NonEmpty.last loop :| NonEmpty.init loop
+    element p r =
+      let s = sources Vector.! source r
+          e = written s
+       in ( firstOfContour s,
+            e
+              { segment = RegionBoolean.segment r,
+                continues = continuesAt p r,
+                bevel = bevelOf r e
+              }
+          )
+    -- True if the operand has no corner between the two segments.
+    continuesAt p r
+      | isForward p /= isForward r || not (beginsWithSource sources r) = False
+      | isForward r = source r == following (source p) && continues (at (source r))
+      | otherwise = source p == following (source r) && continues (at (source p))
+    at = written . (sources Vector.!)
+    following k =
+      let s = sources Vector.! k in if k == lastOfContour s then firstOfContour s else k + 1
+    -- The bevel at the ends of a part of an element. Between the ends of the whole it changes
+    -- evenly.
+    bevelOf r e = case bevel e of
+      Nothing -> Nothing
+      Just (a, b) ->
+        let share p = max 0 (min 1 (Segment.fraction (Part.segment e) p))
+            between t = a + (b - a) * t
+            s = RegionBoolean.segment r
+            end = if Segment.end s == Segment.end (Part.segment e) then 1 else share (Segment.end s)
+         in Just (between (share (Segment.start s)), between end)
+
+-- | Joins neighbours that lie on one line or on one circle and come from different contours.
+joinedElements :: NonEmpty (Int, Element) -> NonEmpty Element
+joinedElements list = case foldr add [] (NonEmpty.toList list) of
+  [] -> fmap snd list
+  e : more -> fmap snd (e :| more)
+  where
+    add a joined = case joined of
+      b : more | Just c <- asOne a b -> c : more
+      _ -> a : joined
+    asOne (i, a) (j, b)
+      | i == j || finish a /= finish b || isSpecial a || isSpecial b = Nothing
+      | otherwise = (\s -> (j, a {segment = s})) <$> oneSegment (Part.segment a) (Part.segment b)
+    isSpecial e = ofCurve e || bevel e /= Nothing
+
+-- | The segment that two consecutive ones make together, if they lie on one line or one circle.
+oneSegment :: Segment -> Segment -> Maybe Segment
+oneSegment a b = case (a, b) of
+  (Straight p q, Straight _ r)
+    | Vec.dot (Vec.to p q) (Vec.to q r) > 0,
+      abs (Vec.cross (Vec.unit (Vec.to p r)) (Vec.to p q)) <= joint ->
+      Just (Straight p r)
+  (Arc {centre = c, sweep = Rad s}, Arc {centre = d, sweep = Rad t})
+    | Vec.distance c d <= Tolerance.joint && s * t > 0 && abs (s + t) < 2 * pi ->
+      Just Arc {start = Segment.start a, end = Segment.end b, centre = c, sweep = Rad (s + t)}
+  _ -> Nothing
+  where
+    Mm joint = Tolerance.joint
+
+-- | The points whose distance from a region, or from an open contour, is at most a distance. With a
+-- negative distance: the points of the region that are so far from all others. Corners become
+-- round. The region gives the contours their name, and @at@ is the place of their elements.
+offsetBy :: Region -> Located Name -> Mm -> [Contour] -> Either RegionFault PlaneRegion
+offsetBy at name (Mm d) contours
+  | null contours = Right (PlaneRegion [])
+  | otherwise = case Kernel.offset (Kernel.roundOffset side (Mm (abs d))) flats of
+    Left _ -> Left RegionUndecided
+    Right reachable ->
+      Right . PlaneRegion . map part . RegionBoolean.nested id $
+        catMaybes
+          [ NonEmpty.nonEmpty (FlatPolyarc.segments loop)
+            | loop <- Loop.polyarcs (Kernel.loops reachable)
+          ]
+  where
+    side = if d < 0 then LeftOf else RightOf
+    flats = map (fst . FlatPolyarc.fromPolyarc . polyarcOf) contours
+    part (o, hs) = RegionPart (contourOf o) (map contourOf hs)
+    contourOf loop =
+      Contour
+        { contourName = name,
+          ends = Closed,
+          elements = joinedElements (NonEmpty.zip (0 :| [1 ..]) (fmap elementOf loop)),
+          writtenElements = []
+        }
+    elementOf s =
+      Element
+        { segment = s,
+          origin = at,
+          finish = plainFinish,
+          continues = False,
+          ofCurve = False,
+          bevel = Nothing
+        }
+
+-- | The area in mm².
+area :: PlaneRegion -> Double
+area = sum . map (areaOf . polyarcOf) . contoursOf
+
+areaOf :: Polyarc -> Double
+areaOf = FlatPolyarc.area . fst . FlatPolyarc.fromPolyarc
+
+-- | The centre of gravity of a region of even thickness; Nothing for an empty region.
+centroid :: PlaneRegion -> Maybe Point
+centroid region = case contoursOf region of
+  [] -> Nothing
+  first' : _ ->
+    let origin = Segment.start (Part.segment (NonEmpty.head (elements first')))
+        moments = map (Polyarc.firstMoment origin . polyarcOf) (contoursOf region)
+        sum' = foldr Vec.add (Vec.vec 0 0) moments
+     in Just (Vec.shift (Vec.scale (1 / area region) sum') origin)
+
+-- | The region with another name for its contours.
+renamed :: Located Name -> PlaneRegion -> PlaneRegion
+renamed name = mapContours (\c -> c {contourName = name})
+
+-- | The region with changed contours.
+mapContours :: (Contour -> Contour) -> PlaneRegion -> PlaneRegion
+mapContours f (PlaneRegion ps) = PlaneRegion [RegionPart (f (outer p)) (map f (holes p)) | p <- ps]
