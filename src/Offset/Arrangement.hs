@@ -32,7 +32,7 @@ import Data.Int (Int32)
 import Data.IntMap.Strict (IntMap)
 import Data.IntMap.Strict qualified as IntMap
 import Data.IntSet qualified as IntSet
-import Data.List (foldl', sortOn)
+import Data.List (find, foldl', sortOn)
 import Data.List.NonEmpty (NonEmpty (..))
 import Data.List.NonEmpty qualified as NonEmpty
 import Data.Maybe (listToMaybe)
@@ -490,7 +490,7 @@ boundary isInside a =
       _ -> Nothing
     -- The half-edge after @h@ around the same face of the region: the first one that is kept,
     -- clockwise from the reversed @h@.
-    next h = listToMaybe (filter isKept (takeWhile (/= back) (drop 1 (iterate clockwise back))))
+    next h = find isKept (takeWhile (/= back) (drop 1 (iterate clockwise back)))
       where
         back = HalfEdge.twin h
     clockwise = HalfEdge.neighbour (edges a) (rings a) (-1)

@@ -25,7 +25,7 @@ import Base.Region (Located (..), Region)
 import Data.Bifunctor qualified as Bifunctor
 import Data.List.NonEmpty (NonEmpty (..))
 import Data.List.NonEmpty qualified as NonEmpty
-import Data.Maybe (catMaybes)
+import Data.Maybe (catMaybes, isJust)
 import Data.Vector (Vector)
 import Data.Vector qualified as Vector
 import Geometry.Carrier (Side (..))
@@ -173,7 +173,7 @@ joinedElements list = case foldr add [] (NonEmpty.toList list) of
     asOne (i, a) (j, b)
       | i == j || finish a /= finish b || isSpecial a || isSpecial b = Nothing
       | otherwise = (\s -> (j, a {segment = s})) <$> oneSegment (Part.segment a) (Part.segment b)
-    isSpecial e = ofCurve e || bevel e /= Nothing
+    isSpecial e = ofCurve e || isJust (bevel e)
 
 -- | The segment that two consecutive ones make together, if they lie on one line or one circle.
 oneSegment :: Segment -> Segment -> Maybe Segment
