@@ -225,10 +225,10 @@ forms Fresh {dimension = d, anything} builtin = case builtin of
   RadiusOf -> [Form [circle] Type.len]
   LengthOf ->
     [ Form [given "contour" Contour] Type.len,
-      Form [given "region" PlaneRegion] Type.len,
       Form [line] Type.len,
       Form [given "vector" Type.aVector] Type.len,
-      Form [curve] Type.len
+      Form [curve] Type.len,
+      Form [given "region" PlaneRegion] Type.len
     ]
   RegionOf -> [Form [given (word t) t] PlaneRegion | t <- outlined <> map ListOf outlined]
   UnionOf ->

@@ -261,7 +261,15 @@ units =
 
 functions :: [(Text, ManualEntry)]
 functions =
-  concat [constructions, curveFunctions, measures, transformations, patterns, numbers]
+  concat
+    [ constructions,
+      curveFunctions,
+      shapes,
+      measures,
+      transformations,
+      patterns,
+      numbers
+    ]
 
 constructions :: [(Text, ManualEntry)]
 constructions =
@@ -313,6 +321,29 @@ curveFunctions =
       ("normal_of", "Gives the direction of the left normal of a curve near a point."),
       ("curvature_of", "Gives the curvature of a curve near a point: 1 / radius.")
     ]
+
+shapes :: [(Text, ManualEntry)]
+shapes =
+  under
+    "functions.md#shapes"
+    [ ("rectangle", "Gives the contour of a rectangle."),
+      ("rounded", "Gives the contour of a rectangle with round corners."),
+      ("slot", "Gives the contour of a slot between two centres."),
+      ("polygon", "Gives the contour through points, or that of a regular polygon."),
+      ("ellipse", "Gives the contour of an ellipse."),
+      ("gear", "Gives the contour of a gear wheel with involute teeth.")
+    ]
+    <> under
+      "functions.md#regions"
+      [ ("region", "Gives the region inside contours or circles."),
+        ("union", "Gives all points of one region or another."),
+        ("difference", "Gives the points of a region that are not in others."),
+        ("offset_of", "Gives all points within a distance of a region, or so far inside it."),
+        ("outlines_of", "Gives the outer contours of a region."),
+        ("holes_of", "Gives the contours around the holes of a region."),
+        ("area_of", "Gives the area of a region."),
+        ("centroid_of", "Gives the centre of gravity of a region.")
+      ]
 
 measures :: [(Text, ManualEntry)]
 measures =

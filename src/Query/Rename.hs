@@ -86,7 +86,9 @@ refuseIf isRefused why = if isRefused then Left why else Right ()
 legal :: Text -> Either Text ()
 legal new = do
   refuseIf (Keyword.isReserved new) (quote new <> " is a word of the language")
-  refuseIf (isJust (Builtin.lookup new)) (quote new <> " belongs to the language")
+  refuseIf
+    (isJust (Builtin.lookup new) && not (Builtin.mayBeHidden new))
+    (quote new <> " belongs to the language")
   refuseIf (map shape (fst (Lexer.tokens 0 new)) /= [Word new]) $
     quote new
       <> " is no name: a name consists of letters, digits and _, and does not begin with a digit"

@@ -49,6 +49,7 @@ import Verify.MotionSet qualified as MotionSet
 import Verify.Pocket (ClearingPass (..), Pocket (..))
 import Verify.Pocket qualified as Pocket
 import Verify.PocketFloor qualified as PocketFloor
+import Verify.PocketSense qualified as PocketSense
 import Verify.Proof
   ( ContourProof (ContourProof),
     Finding (NotCleared),
@@ -108,6 +109,7 @@ examine set PassMotions {isKnown, clears, isIn} pocket isFirst pass = (contourPr
       Deviation.gougeFindings allowedGouge gouges deepest
         <> Deviation.excessFindings allowedExcess tooMuch largest
         <> (if null tooMuch then floorFindings withRim pass floorExcess clearing else [])
+        <> PocketSense.againstSense (plus allowedGouge allowedExcess) withRim (filter isClearing examined)
     floorExcess = max allowedGouge allowedExcess
 
 -- | Finding for a position on the floor that a pass leaves uncleared; empty if there is none. The

@@ -33,7 +33,8 @@ import Geometry.Vec (Point)
 import Geometry.Vec qualified as Vec
 import Machine.Machine (CommandName (..), FeedCode, Machine, RotaryAxis)
 import Machine.Machine qualified as Machine
-import Report.Report (Report (hints, label, message), ReportPlace (..), report)
+import Part.Part (CutSense (..))
+import Report.Report (Label (..), Report (hints, label, message, others), ReportPlace (..), report)
 import Report.Report qualified as Report
 import Verify.ControlFault (ControlFinding)
 
@@ -120,6 +121,9 @@ data Finding
     NotCleared Region Mm Point
   | -- | The tape does not clear the depths of a pocket in the order of the program: the statement.
     NotInOrder Region
+  | -- | A wall of a pocket is cut in the direction that the program does not ask for: the frame, the
+    -- region that asks for a direction, this direction.
+    AgainstSense Int Region CutSense
   | -- | A frame leaves the plane of a flat part.
     OffPlane Int
   | -- | The first frame that turns a rotary axis, which the proof cannot judge: the frame, the
@@ -163,6 +167,7 @@ tapeOrder finding = case finding of
   NotFollowed _ -> (0, 3)
   NotCleared {} -> (0, 3)
   NotInOrder _ -> (0, 3)
+  AgainstSense n _ _ -> (n, 3)
   OffPlane n -> (n, 4)
   TurnsAxis n _ -> (n, 4)
   HoleMissing _ _ -> (0, 4)
@@ -187,6 +192,7 @@ isOffContour finding = case finding of
   NotFollowed {} -> True
   NotCleared {} -> True
   NotInOrder {} -> False
+  AgainstSense {} -> False
   OffPlane {} -> False
   TurnsAxis {} -> False
   HoleMissing {} -> False
@@ -309,6 +315,12 @@ toReport unit machine finding = case finding of
       "E0715"
       (InSource region)
       "the tape does not clear the depths of this pocket in their order"
+  AgainstSense n region asked ->
+    (wrong "E0742" InFile (frameWord n <> " cuts in the other direction than the program asks for"))
+      { others = [Label region (case asked of Climb -> "climb"; Conventional -> "conventional")],
+        message =
+          ["The chips are then cut from the other end, and the wall gets another size and surface."]
+      }
   OffPlane n -> wrong "E0705" InFile (frameWord n <> " moves z, but the program does not")
   TurnsAxis n axis ->
     (wrong "E0718" InFile (frameWord n <> " turns the rotary axis " <> rotaryWord axis))

@@ -109,7 +109,8 @@ raisedElsewhere =
         "E0738",
         "E0739",
         "E0740",
-        "E0741"
+        "E0741",
+        "E0742"
       ]
     ),
     ( "files and the command line",

@@ -4,6 +4,7 @@ module Verify.PocketSpec (spec) where
 import Base.Decimal qualified as Decimal
 import Base.PulseVector (Pulses3 (..))
 import Base.Quantity (LengthUnit (..), Mm (..), minus, plus, times)
+import Base.Region (Located (..), Region (Region))
 import Base.Result qualified as Result
 import Compile (Analysis (path))
 import Compile qualified
@@ -48,6 +49,24 @@ spec = modifyMaxSuccess (const 60) $ do
       \(p, first, m) ->
         forAllPath (Generate.pocketing first p) $ \path ->
           Proof.toReports Millimetres m (proofOf m path) === []
+  prop
+    "random pockets that ask for a direction are proven (catches a linking move that counts as a \
+    \cut along a wall)"
+    $ forAll ((,,) <$> Generate.pocket <*> directions <*> Test.QuickCheck.elements machines) $
+      \(p, direction, m) ->
+        forAllPath (towards direction (Generate.pocketing [] p)) $ \path ->
+          Proof.toReports Millimetres m (proofOf m path) === []
+  prop
+    "a pocket that is cut in the other direction is found (catches a proof of the material alone)"
+    $ forAll ((,) <$> Generate.rectangle <*> directions) $ \(p, (asked, spindle)) ->
+      let other = if asked == Part.Climb then Part.Conventional else Part.Climb
+       in forAllPath (towards (asked, spindle) (Generate.pocketing [] p)) $ \path ->
+            forAllPath (towards (other, spindle) (Generate.pocketing [] p)) $ \wrong ->
+              case (framesOf iso path, framesOf iso wrong) of
+                (Just program, Just opposite) ->
+                  map kind (findings (Verify.prove iso path program (framesAlone opposite)))
+                    === ["direction"]
+                _ -> property False
   prop
     "in a proven pocket, points that the cutter can reach lie within its radius of the motions \
     \(catches a proof of nothing)"
@@ -219,6 +238,24 @@ machines = [iso, Machines.named "lkp-01f", Machines.named "n55"]
 iso :: Machine
 iso = Machines.named "iso6983"
 
+-- | The directions that a pocket may ask for, with the sense of the spindle.
+directions :: Gen (Part.CutSense, Part.Sense)
+directions =
+  (,)
+    <$> Test.QuickCheck.elements [Part.Climb, Part.Conventional]
+      <*> Test.QuickCheck.elements [Part.Clockwise, Part.CounterClockwise]
+
+-- | A pocket that asks for a direction.
+towards :: (Part.CutSense, Part.Sense) -> Pocketing -> Pocketing
+towards (asked, spindle) p =
+  p
+    { Part.wall =
+        (Part.wall p)
+          { Part.sense = Just (Located (Region 0 0) asked),
+            Part.spindleSense = spindle
+          }
+    }
+
 forAllPath :: Pocketing -> (Toolpath -> Property) -> Property
 forAllPath p holds = maybe discard holds (Generate.toolpathOf p)
 
@@ -241,6 +278,7 @@ kind f = case f of
   Excess {} -> "excess"
   Gouge {} -> "gouge"
   NotInOrder _ -> "order"
+  AgainstSense {} -> "direction"
   other -> show other
 
 -- | Paths of the centre in all level frames below the top of the part.

@@ -1,0 +1,65 @@
+-- | The direction in which the walls of a pocket are cut: climb or conventional.
+--
+-- The rim of a pocket ("Verify.Pocket") is the path of the cutter's centre beside its walls, in
+-- their direction. A motion along the rim in this direction has the free space on the same side as
+-- the walls have it. In a passage of the cutter's width both directions run along the rim, and any
+-- motion is right there.
+module Verify.PocketSense
+  ( againstSense,
+  )
+where
+
+import Base.Quantity (Mm (..))
+import Base.Region (Located (..))
+import Geometry.Carrier (Side (..))
+import Geometry.Distance qualified as Distance
+import Geometry.Index.BoundingBox qualified as BoundingBox
+import Geometry.Index.BoxTree (BoxTree)
+import Geometry.Index.BoxTree qualified as BoxTree
+import Geometry.Segment (Segment)
+import Geometry.Segment qualified as Segment
+import Geometry.Vec qualified as Vec
+import Part.Part qualified as Part
+import Verify.Motion (CutterMotion (number, segment))
+import Verify.Pocket (Pocket (..))
+import Verify.Proof (Finding (AgainstSense))
+
+-- | Finding for the first of some motions that cuts along a wall in the direction that the program
+-- does not ask for; empty if there is none, or if the program asks for no direction. The motions
+-- are at the depth of a pass, and the pocket has the rim of this pass. A motion runs along the rim
+-- if it is parallel to it and at most the distance @near@ away.
+againstSense :: Mm -> Pocket -> [CutterMotion] -> [Finding]
+againstSense near pocket motions = case Part.sense (milling pocket) of
+  Nothing -> []
+  Just (Located region asked) ->
+    take 1 [AgainstSense (number m) region asked | m <- motions, isAgainst asked (segment m)]
+  where
+    rims = BoxTree.index BoundingBox.ofSegment (map snd (rim pocket))
+    isAgainst asked s = Segment.length s > near && any (opposes asked s) [0.25, 0.5, 0.75]
+    opposes asked s t =
+      let found = alongRim near rims s t
+       in not (null found) && all (== (asked /= withRim)) found
+    -- The sense of a motion in the direction of the rim. With a clockwise spindle, climb milling
+    -- has the free space on the left.
+    withRim
+      | (side pocket == LeftOf) == (Part.spindleSense (milling pocket) == Part.Clockwise) = Part.Climb
+      | otherwise = Part.Conventional
+
+-- | The parts of the rim that run beside a point of a segment: for each, true if it has the
+-- direction of the segment.
+alongRim :: Mm -> BoxTree Segment -> Segment -> Double -> [Bool]
+alongRim near rims s t =
+  [ Vec.dot direction along > 0
+    | r <- BoxTree.within (BoundingBox.inflate near (BoundingBox.ofPoints p [])) rims,
+      Segment.length r > near,
+      Distance.toPoint p r <= near,
+      let along = Segment.directionAt (Distance.nearestFraction p r) r,
+      abs (Vec.cross direction along) <= parallel
+  ]
+  where
+    p = Segment.at t s
+    direction = Segment.directionAt t s
+
+-- | The largest sine of the angle between a motion and the rim along which it runs.
+parallel :: Double
+parallel = 0.05
