@@ -370,7 +370,12 @@ toReport unit err = case err of
             \points."
           ],
         fixes = ErrorFix.curveFixes region term (ErrorFix.listFixes unit region t),
-        hints = ["If two numbers are a point, write them in brackets: (40, 0)." | Quantity _ <- [t]]
+        hints =
+          ["If two numbers are a point, write them in brackets: (40, 0)." | Quantity _ <- [t]]
+            <> [ "Its contours are outlines_of(…) and holes_of(…), for example: \
+                 \item_of(outlines_of(…), 1)."
+                 | PlaneRegion <- [t]
+               ]
       }
   NoPart region ->
     (at region "E0215" "the program does not begin with ‘part’")

@@ -449,11 +449,11 @@ cipherFixes region digit digitRegion values counts
 
 -- | The hint that shows how to call a function. It lists at most four of its forms.
 formsHint :: [Text] -> [Text]
-formsHint known = case known of
+formsHint known = case nubOrd known of
   [] -> []
   [one] -> ["Write " <> one <> "."]
-  _ ->
-    ["Write one of: " <> Text.intercalate "; " (take 4 known) <> "."]
+  several ->
+    ["Write one of: " <> Text.intercalate "; " (take 4 several) <> "."]
 
 -- | Joins words to a list such as "a, b and c".
 joinedWords :: [Text] -> Text

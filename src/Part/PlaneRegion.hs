@@ -25,10 +25,13 @@ import Base.Region (Located (..), Region)
 import Data.Bifunctor qualified as Bifunctor
 import Data.List.NonEmpty (NonEmpty (..))
 import Data.List.NonEmpty qualified as NonEmpty
-import Data.Maybe (catMaybes, isJust)
+import Data.Maybe (fromMaybe, isJust, mapMaybe)
+import Data.Primitive.PrimArray (PrimArray)
+import Data.Primitive.PrimArray qualified as PrimArray
 import Data.Vector (Vector)
 import Data.Vector qualified as Vector
 import Geometry.Carrier (Side (..))
+import Geometry.ClosedPolyarcs qualified as ClosedPolyarcs
 import Geometry.FlatPolyarc qualified as FlatPolyarc
 import Geometry.Polyarc (Ends (Closed, Open), Polyarc)
 import Geometry.Polyarc qualified as Polyarc
@@ -38,11 +41,15 @@ import Geometry.Vec (Point)
 import Geometry.Vec qualified as Vec
 import Offset.Kernel qualified as Kernel
 import Offset.Loop qualified as Loop
-import Offset.RegionBoolean (BooleanFault (..), BooleanOperation, ResultSegment (isForward, source))
+import Offset.RegionBoolean
+  ( BooleanFault (..),
+    BooleanOperation (..),
+    ResultSegment (isForward, source),
+  )
 import Offset.RegionBoolean qualified as RegionBoolean
 import Part.Part (Contour (..), Element (..), plainFinish, polyarcOf, reversedContour)
 import Part.Part qualified as Part
-import Part.Tolerance qualified as Tolerance
+import Part.Tolerance qualified as PartTolerance
 
 -- | A region, which may be empty.
 newtype PlaneRegion = PlaneRegion {parts :: [RegionPart]}
@@ -81,10 +88,29 @@ inside c
     whole = polyarcOf c
     element i = NonEmpty.toList (elements c) !! i
 
--- | The result of a boolean operation, with a name for its contours.
+-- | The result of a boolean operation, with a name for its contours. Many regions are joined in
+-- halves, so that segments inside the union are dropped early.
 combined ::
   Located Name -> BooleanOperation -> [PlaneRegion] -> Either RegionFault PlaneRegion
-combined name operation regions =
+combined name operation regions = case (operation, regions) of
+  (_, [one]) -> Right one
+  (Difference, whole : more@(_ : _ : _)) -> do
+    less <- combined name Union more
+    combinedAtOnce name Difference [whole, less]
+  (Union, _) | length regions > 2 -> halves
+  (Common, _) | length regions > 2 -> halves
+  _ -> combinedAtOnce name operation regions
+  where
+    halves = do
+      let (front, back) = splitAt (length regions `div` 2) regions
+      a <- combined name operation front
+      b <- combined name operation back
+      combinedAtOnce name operation [a, b]
+
+-- | The result of a boolean operation by a single arrangement.
+combinedAtOnce ::
+  Located Name -> BooleanOperation -> [PlaneRegion] -> Either RegionFault PlaneRegion
+combinedAtOnce name operation regions =
   Bifunctor.first (const RegionUndecided) $
     made . RegionBoolean.nested RegionBoolean.segment
       <$> RegionBoolean.combine operation (map (map polyarcOf) contours)
@@ -183,11 +209,11 @@ oneSegment a b = case (a, b) of
       abs (Vec.cross (Vec.unit (Vec.to p r)) (Vec.to p q)) <= joint ->
       Just (Straight p r)
   (Arc {centre = c, sweep = Rad s}, Arc {centre = d, sweep = Rad t})
-    | Vec.distance c d <= Tolerance.joint && s * t > 0 && abs (s + t) < 2 * pi ->
+    | Vec.distance c d <= PartTolerance.joint && s * t > 0 && abs (s + t) < 2 * pi ->
       Just Arc {start = Segment.start a, end = Segment.end b, centre = c, sweep = Rad (s + t)}
   _ -> Nothing
   where
-    Mm joint = Tolerance.joint
+    Mm joint = PartTolerance.joint
 
 -- | The points whose distance from a region, or from an open contour, is at most a distance. With a
 -- negative distance: the points of the region that are so far from all others. Corners become
@@ -198,31 +224,66 @@ offsetBy at name (Mm d) contours
   | otherwise = case Kernel.offset (Kernel.roundOffset side (Mm (abs d))) flats of
     Left _ -> Left RegionUndecided
     Right reachable ->
-      Right . PlaneRegion . map part . RegionBoolean.nested id $
-        catMaybes
-          [ NonEmpty.nonEmpty (FlatPolyarc.segments loop)
-            | loop <- Loop.polyarcs (Kernel.loops reachable)
-          ]
+      Right . PlaneRegion . map part . RegionBoolean.nested fst $
+        loopsOf (curveMarks contours numbers) reachable
   where
     side = if d < 0 then LeftOf else RightOf
-    flats = map (fst . FlatPolyarc.fromPolyarc . polyarcOf) contours
+    (flats, numbers) = unzip (map (FlatPolyarc.fromPolyarc . polyarcOf) contours)
     part (o, hs) = RegionPart (contourOf o) (map contourOf hs)
     contourOf loop =
       Contour
         { contourName = name,
           ends = Closed,
-          elements = joinedElements (NonEmpty.zip (0 :| [1 ..]) (fmap elementOf loop)),
+          elements = joinedElements (NonEmpty.zip (0 :| [1 ..]) (offsetElements at loop)),
           writtenElements = []
         }
-    elementOf s =
+
+-- | True for each segment of the flat polyarcs of contours that belongs to a curve. @numbers@ has
+-- the elements from which the flat segments are made.
+curveMarks :: [Contour] -> [PrimArray Int] -> Vector Bool
+curveMarks contours numbers =
+  Vector.fromList
+    [ ofCurve (es Vector.! k)
+      | (c, ns) <- zip contours numbers,
+        let es = Vector.fromList (NonEmpty.toList (elements c)),
+        k <- PrimArray.primArrayToList ns
+    ]
+
+-- | The loops of an offset. Each segment has the mark of the one of which it is the offset.
+loopsOf :: Vector Bool -> Kernel.ReachableRegion -> [NonEmpty (Segment, Bool)]
+loopsOf marks Kernel.ReachableRegion {Kernel.loops, Kernel.raw} =
+  mapMaybe
+    (NonEmpty.nonEmpty . loop)
+    [0 .. Loop.count loops - 1]
+  where
+    loop n =
+      [ (s, markOf (PrimArray.indexPrimArray (Loop.raws loops) k))
+        | (k, s) <-
+            zip
+              [PrimArray.indexPrimArray (Loop.starts loops) n ..]
+              (FlatPolyarc.segments (Loop.polyarc loops n))
+      ]
+    markOf r =
+      fromMaybe False (marks Vector.!? fromIntegral (sourceOf (fromIntegral r)))
+    sourceOf = PrimArray.indexPrimArray (ClosedPolyarcs.sources raw)
+
+-- | The elements of an offset loop whose segments have marks: true for the offset of a curve.
+offsetElements :: Region -> NonEmpty (Segment, Bool) -> NonEmpty Element
+offsetElements at loop = NonEmpty.zipWith element (NonEmpty.last loop :| NonEmpty.init loop) loop
+  where
+    element (p, wasOfCurve) (s, isOfCurve) =
       Element
         { segment = s,
           origin = at,
           finish = plainFinish,
-          continues = False,
-          ofCurve = False,
+          continues = wasOfCurve && isOfCurve && isSmooth p s,
+          ofCurve = isOfCurve,
           bevel = Nothing
         }
+    isSmooth p s =
+      let Rad turn = Vec.signedAngle (Segment.endDirection p) (Segment.startDirection s)
+          Rad most = PartTolerance.smoothTurn
+       in abs turn <= most
 
 -- | The area in mm².
 area :: PlaneRegion -> Double

@@ -5,7 +5,6 @@
 -- and yields 'Nothing' for all other functions and arguments.
 module Part.RegionBuiltin
   ( apply,
-    contourOfShape,
   )
 where
 
@@ -27,7 +26,7 @@ import Offset.RegionBoolean (BooleanOperation (..))
 import Part.Error (ValueFact (..))
 import Part.Evaluation (Eval)
 import Part.Evaluation qualified as Evaluation
-import Part.Parameter (LimitedQuantity (..))
+import Part.Parameter (LimitedQuantity (..), Range (FromTo))
 import Part.Parameter qualified as Parameter
 import Part.Part (Contour (..), Element (..), plainFinish, polyarcOf)
 import Part.PlaneRegion (PlaneRegion (..), RegionFault (..))
@@ -64,9 +63,7 @@ regionFunction at builtin arguments = case (builtin, arguments) of
     operation how vs = do
       regions <- concat <$> traverse (regionsOf at) vs
       spendOn at regions
-      RegionValue <$> case regions of
-        [one] -> pure one
-        _ -> settled at (PlaneRegion.combined (named at builtin) how regions)
+      RegionValue <$> settled at (PlaneRegion.combined (named at builtin) how regions)
     isOutlined v = case v of
       RegionValue _ -> True
       ContourValue _ -> True
@@ -86,9 +83,7 @@ regionsOf :: Region -> Value -> Eval [PlaneRegion]
 regionsOf at v = case v of
   RegionValue r -> pure [r]
   ContourValue c -> pure <$> settled at (PlaneRegion.inside c)
-  CircleValue c ->
-    let outline = contourOfShape at (named at MakeCircle) (Shape.circle c)
-     in pure <$> settled at (PlaneRegion.inside outline)
+  CircleValue c -> pure <$> settled at (PlaneRegion.inside (contourOfCircle at c))
   ListValue vs -> concat <$> traverse (regionsOf at) (Vector.toList vs)
   _ -> bug "a region of something else"
 
@@ -96,9 +91,7 @@ regionsOf at v = case v of
 regionOf :: Region -> Value -> Eval PlaneRegion
 regionOf at v = do
   regions <- regionsOf at v
-  case regions of
-    [one] -> pure one
-    _ -> settled at (PlaneRegion.combined (named at RegionOf) Union regions)
+  settled at (PlaneRegion.combined (named at RegionOf) Union regions)
 
 -- | Reports the fault of a region.
 settled :: Region -> Either RegionFault a -> Eval a
@@ -179,10 +172,14 @@ cornered at builtin arguments = case (builtin, arguments) of
       Mm w' <- size at w
       Mm h' <- size at h
       pure (Vec.shift (Vec.vec w' h') (fromOrigin p))
+    atLeast low what n
+      | n < low = Evaluation.mistake (NotWhole at what (FromTo (round low) 10000000) n)
+      | otherwise = do
+        count <- whole at what n
+        count <$ Evaluation.spend at count
     polygon ps = maybe (Left TooFewCorners) Shape.polygon (NonEmpty.nonEmpty ps)
     regular (Circle o r) n a = do
-      count <- whole at Parameter.CornerCount n
-      Evaluation.spend at count
+      count <- atLeast 3 Parameter.CornerCount n
       pure
         ( polygon
             [ Vec.shift (Vec.polar r (Rad (a + 2 * pi * fromIntegral k / fromIntegral count))) o
@@ -207,7 +204,8 @@ curved at builtin arguments = case (builtin, arguments) of
     gear m z a = do
       Mm m' <- size at m
       teeth <- whole at Parameter.ToothCount z
-      Evaluation.spend at (min 100000 teeth * 10)
+      -- The fit of a flank takes some time for each tooth.
+      Evaluation.spend at (10 * teeth)
       pure (Shape.gear Gear {gearModule = m', teeth, pressureAngle = a})
 
 -- | A size of a shape, which is above 0.
@@ -215,6 +213,10 @@ size :: Region -> Double -> Eval Mm
 size at x
   | x <= 0 = Evaluation.mistake (NotPositive at ShapeSize x)
   | otherwise = Mm x <$ within at x
+
+-- | The contour of a circle, which is counter-clockwise.
+contourOfCircle :: Region -> Circle -> Contour
+contourOfCircle at c = contourOfShape at (named at MakeCircle) (Shape.circle c)
 
 -- | The contour of a shape. Its elements are at the place of the call.
 contourOfShape :: Region -> Located Name -> NonEmpty ShapeSegment -> Contour

@@ -81,11 +81,15 @@ shapeReport unit region fault = case fault of
         hints = ["Write a smaller radius."]
       }
   TooFewCorners ->
-    (report "a polygon needs three different corners") {hints = ["Give it more points."]}
+    (report "a polygon needs three corners that are not on one line")
+      { hints = ["Give it more points."]
+      }
   WrongPressureAngle angle ->
     (report ("a gear cannot have a pressure angle of " <> Decimal.short 3 (degrees angle) <> "°"))
       { hints = ["Write an angle between 0 and 60 deg. The usual one is 20 deg."]
       }
+  NoRootCircle ->
+    (report "a gear of so few teeth has no root circle") {hints = ["Give the gear more teeth."]}
   PointedTeeth ->
     (report "the teeth of this gear end in points")
       { message = ["Their flanks meet below the tip circle."],

@@ -17,8 +17,10 @@ module Part.Shape
 where
 
 import Base.Quantity (Mm (..), Rad (..))
+import Data.Foldable (maximumBy)
 import Data.List.NonEmpty (NonEmpty (..))
 import Data.List.NonEmpty qualified as NonEmpty
+import Data.Ord (comparing)
 import Geometry.ArcFitting.ParametricFit (ParametricCurve (..))
 import Geometry.ArcFitting.ParametricFit qualified as ParametricFit
 import Geometry.Carrier (Circle (Circle), Line (Line), Sense (..))
@@ -51,6 +53,8 @@ data ShapeFault
     TooFewCorners
   | -- | a pressure angle that is not between 0 and 60 degrees
     WrongPressureAngle Rad
+  | -- | a gear of so few teeth that it has no root circle
+    NoRootCircle
   | -- | the flanks of a tooth meet below its tip
     PointedTeeth
   | -- | the flanks of neighbouring teeth meet above the root
@@ -119,10 +123,15 @@ slot p q (Mm width)
 -- | A polygon through its corners, in their order.
 polygon :: NonEmpty Point -> Shape
 polygon corners
-  | length sides < 3 = Left TooFewCorners
+  | length sides < 3 || all isOnOneLine list = Left TooFewCorners
   | otherwise = closed sides
   where
     list = NonEmpty.toList corners
+    first = NonEmpty.head corners
+    farthest = maximumBy (comparing (Vec.distance first)) list
+    isOnOneLine p =
+      abs (Vec.cross (Vec.to first farthest) (Vec.to first p))
+        <= short * (let Mm l = Vec.distance first farthest in l)
     sides =
       [Straight a b | (a, b) <- zip list (drop 1 list <> take 1 list), not (Vec.isNear a b)]
 
@@ -150,6 +159,7 @@ ellipse o (Mm a) (Mm b) turn =
 gear :: Gear -> Shape
 gear g@Gear {gearModule = m, teeth, pressureAngle}
   | pressureAngle <= 0 || pressureAngle >= pi / 3 = Left (WrongPressureAngle (Rad pressureAngle))
+  | root <= 0 = Left NoRootCircle
   | halfAt tip <= 0 = Left PointedTeeth
   | gap <= 0 = Left NoRoot
   | otherwise = Right (gaplessShape (NonEmpty.fromList (concatMap turned [0 .. teeth - 1])))

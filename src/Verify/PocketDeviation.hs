@@ -109,7 +109,10 @@ examine set PassMotions {isKnown, clears, isIn} pocket isFirst pass = (contourPr
       Deviation.gougeFindings allowedGouge gouges deepest
         <> Deviation.excessFindings allowedExcess tooMuch largest
         <> (if null tooMuch then floorFindings withRim pass floorExcess clearing else [])
-        <> PocketSense.againstSense (plus allowedGouge allowedExcess) withRim (filter isClearing examined)
+        <> PocketSense.againstSense
+          (plus allowedGouge allowedExcess)
+          withRim
+          (filter isClearing examined)
     floorExcess = max allowedGouge allowedExcess
 
 -- | Finding for a position on the floor that a pass leaves uncleared; empty if there is none. The

@@ -34,23 +34,28 @@ againstSense near pocket motions = case Part.sense (milling pocket) of
   Just (Located region asked) ->
     take 1 [AgainstSense (number m) region asked | m <- motions, isAgainst asked (segment m)]
   where
-    rims = BoxTree.index BoundingBox.ofSegment (map snd (rim pocket))
+    rims = indexed (map snd (rim pocket))
+    paths = indexed (map segment motions)
+    indexed = BoxTree.index BoundingBox.ofSegment
     isAgainst asked s = Segment.length s > near && any (opposes asked s) [0.25, 0.5, 0.75]
     opposes asked s t =
-      let found = alongRim near rims s t
-       in not (null found) && all (== (asked /= withRim)) found
+      let found = alongSegments near rims s t
+       in not (null found)
+            && all (== (asked /= withRim)) found
+            && and (alongSegments near paths s t)
     -- The sense of a motion in the direction of the rim. With a clockwise spindle, climb milling
     -- has the free space on the left.
     withRim
-      | (side pocket == LeftOf) == (Part.spindleSense (milling pocket) == Part.Clockwise) = Part.Climb
+      | (side pocket == LeftOf) == isClockwise = Part.Climb
       | otherwise = Part.Conventional
+    isClockwise = Part.spindleSense (milling pocket) == Part.Clockwise
 
--- | The parts of the rim that run beside a point of a segment: for each, true if it has the
--- direction of the segment.
-alongRim :: Mm -> BoxTree Segment -> Segment -> Double -> [Bool]
-alongRim near rims s t =
+-- | The segments that run along another one at a point of it: for each, true if it has the same
+-- direction there.
+alongSegments :: Mm -> BoxTree Segment -> Segment -> Double -> [Bool]
+alongSegments near others s t =
   [ Vec.dot direction along > 0
-    | r <- BoxTree.within (BoundingBox.inflate near (BoundingBox.ofPoints p [])) rims,
+    | r <- BoxTree.within (BoundingBox.inflate near (BoundingBox.ofPoints p [])) others,
       Segment.length r > near,
       Distance.toPoint p r <= near,
       let along = Segment.directionAt (Distance.nearestFraction p r) r,
@@ -60,6 +65,6 @@ alongRim near rims s t =
     p = Segment.at t s
     direction = Segment.directionAt t s
 
--- | The largest sine of the angle between a motion and the rim along which it runs.
+-- | The largest sine of the angle between segments of which one runs along the other.
 parallel :: Double
 parallel = 0.05

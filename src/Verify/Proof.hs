@@ -121,8 +121,8 @@ data Finding
     NotCleared Region Mm Point
   | -- | The tape does not clear the depths of a pocket in the order of the program: the statement.
     NotInOrder Region
-  | -- | A wall of a pocket is cut in the direction that the program does not ask for: the frame, the
-    -- region that asks for a direction, this direction.
+  | -- | A wall of a pocket is cut in the direction that the program does not ask for: the frame,
+    -- the region that asks for a direction, this direction.
     AgainstSense Int Region CutSense
   | -- | A frame leaves the plane of a flat part.
     OffPlane Int

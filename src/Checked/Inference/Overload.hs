@@ -22,6 +22,7 @@ import Checked.Error (Error (..), LabelChange (..))
 import Checked.ErrorFix (unwritten)
 import Checked.Inference.State
 import Checked.Scheme (OverloadedCall (..))
+import Checked.Syntax qualified as Checked
 import Checked.Type (Type (..))
 import Control.Monad (unless)
 import Data.Containers.ListUtils (nubOrd)
@@ -61,7 +62,7 @@ reportMisfit call types = case mapMaybe (oneMisfit call types) (formsByLabels ca
   (region, wanted, written, found) : _ -> do
     elsewhere <- decidedElsewhere [(region, written, found)]
     mistakeOnce (map fst elsewhere) (Mismatch region wanted found elsewhere unwritten)
-  [] -> case mapMaybe (\f -> (f,) <$> exchanged types (parameterTypes f)) (formsByLabels call) of
+  [] -> case mapMaybe (\f -> (f,) <$> exchanged types (parameterTypes f)) exchangeable of
     (form, order) : _ -> reportOrder call types form order
     [] ->
       mistake
@@ -91,6 +92,8 @@ reportMisfit call types = case mapMaybe (oneMisfit call types) (formsByLabels ca
         | f <- Builtin.forms plainUnknowns (builtin call),
           length (Builtin.parameters f) == length (labels call)
       ]
+    -- The operands of a difference are never exchanged: that would be another region.
+    exchangeable = if builtin call == Checked.DifferenceOf then [] else formsByLabels call
 
 -- | Reports a call with two arguments in the wrong order: the indices of these arguments, and the
 -- form that the call has in the right order. @types@ are the resolved types of its arguments.
