@@ -123,7 +123,7 @@ millingsByStart part =
 -- has an arc of it. Distances have lines that lead to their points.
 sizeIsDrawn :: [Part.Contour] -> [Circle] -> Part.AssertedSize -> Bool
 sizeIsDrawn contours circles size = case size of
-  Part.AssertedDistance {} -> True
+  Part.AssertedDistance p q _ -> not (Vec.isNear p q)
   Part.AssertedRadius (Circle c (Mm r)) _ ->
     any (isSame c r) (circles <> concatMap arcsOf contours)
   where

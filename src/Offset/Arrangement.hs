@@ -31,6 +31,7 @@ import Data.Bifunctor qualified as Bifunctor
 import Data.Int (Int32)
 import Data.IntMap.Strict (IntMap)
 import Data.IntMap.Strict qualified as IntMap
+import Data.IntSet (IntSet)
 import Data.IntSet qualified as IntSet
 import Data.List (find, foldl', sortOn)
 import Data.List.NonEmpty (NonEmpty (..))
@@ -420,26 +421,13 @@ intersectingSegments (low, high) a =
 loops :: Sense -> Int -> Arrangement -> Maybe OffsetLoops
 loops sense wanted a =
   toLoops . map vertices
-    <$> closedLoops (IntSet.fromList [e | e <- [0 .. Vector.length (edges a) - 1], isKept e])
+    <$> closedChains next (IntSet.fromList [e | e <- [0 .. Vector.length (edges a) - 1], isKept e])
   where
     isKept e =
       let (l, r) = sides a (2 * e)
        in case sense of
             CounterClockwise -> l == wanted
             Clockwise -> r == wanted - 1
-    closedLoops left = case IntSet.minView left of
-      Nothing -> Just []
-      Just (e, rest) -> do
-        (loop, rest') <- follow e e rest
-        (loop :) <$> closedLoops rest'
-    -- The loop from edge @e@ on, and the edges left over. Nothing when it does not reach @first@.
-    follow first e rest = case next e of
-      Just e'
-        | e' == first -> Just ([e], rest)
-        | IntSet.member e' rest -> do
-          (more, rest') <- follow first e' (IntSet.delete e' rest)
-          Just (e : more, rest')
-      _ -> Nothing
     -- The edge after edge @e@ around the reachable face: at the node where @e@ ends, the next
     -- half-edge on the face's side. Nothing when no edge that is kept begins with this half-edge.
     next e
@@ -472,28 +460,34 @@ data BoundaryEdge = BoundaryEdge
 -- close.
 boundary :: (Int -> Bool) -> Arrangement -> Maybe [NonEmpty BoundaryEdge]
 boundary isInside a =
-  map (fmap (boundaryEdge a)) . concatMap (simpleLoops a) <$> closedLoops (IntSet.fromList kept)
+  map (fmap (boundaryEdge a)) . concatMap (simpleLoops a) <$> closedChains next (IntSet.fromList kept)
   where
     kept = filter isKept [0 .. 2 * Vector.length (edges a) - 1]
     isKept h = let (l, r) = sides a h in isInside l && not (isInside r)
-    closedLoops left = case IntSet.minView left of
-      Nothing -> Just []
-      Just (h, rest) -> do
-        (loop, rest') <- follow h h rest
-        (loop :) <$> closedLoops rest'
-    follow start h rest = case next h of
-      Just h'
-        | h' == start -> Just ([h], rest)
-        | IntSet.member h' rest -> do
-          (more, rest') <- follow start h' (IntSet.delete h' rest)
-          Just (h : more, rest')
-      _ -> Nothing
     -- The half-edge after @h@ around the same face of the region: the first one that is kept,
     -- clockwise from the reversed @h@.
     next h = find isKept (takeWhile (/= back) (drop 1 (iterate clockwise back)))
       where
         back = HalfEdge.twin h
     clockwise = HalfEdge.neighbour (edges a) (rings a) (-1)
+
+-- | Divides a set of numbers into closed chains. @next@ gives the number after another one. Nothing
+-- when a chain does not close.
+closedChains :: (Int -> Maybe Int) -> IntSet -> Maybe [[Int]]
+closedChains next left = case IntSet.minView left of
+  Nothing -> Just []
+  Just (e, rest) -> do
+    (chain', rest') <- follow e e rest
+    (chain' :) <$> closedChains next rest'
+  where
+    -- The chain from @e@ on, and the numbers left over. Nothing when it does not reach @first@.
+    follow first e rest = case next e of
+      Just e'
+        | e' == first -> Just ([e], rest)
+        | IntSet.member e' rest -> do
+          (more, rest') <- follow first e' (IntSet.delete e' rest)
+          Just (e : more, rest')
+      _ -> Nothing
 
 -- | Divides a loop of half-edges where it visits a node again.
 simpleLoops :: Arrangement -> [Int] -> [NonEmpty Int]

@@ -166,20 +166,11 @@ passOf visit travelHeight (left, z) sectionsFrom = do
   found <- maybe (Left (TooManyLoops word Pocket.mostSegments)) Right (sectionsFrom from)
   sections <- fitting (NonEmpty.nonEmpty found)
   (visit', sections') <- case (sections, travelHeight) of
-    -- A wall lies between the plunge position and the first loop, so the cutter moves over it at
-    -- the clearance height.
+    -- A wall lies between the plunge position and the first loop, so the cutter goes straight to
+    -- the clearance height, and moves over the wall at this height.
     (LiftedLink _ q :| next : more, Just c) ->
       Right
-        ( visit
-            { LinkingMove.milling =
-                milling
-                  { Part.approach =
-                      Part.approach milling
-                        <> [Part.Stop (Located word q) (Just c) Part.Rapid]
-                  }
-            },
-          next :| more
-        )
+        (visit {LinkingMove.milling = goingOver word c q milling}, next :| more)
     (_, Just _) -> Right (visit, sections)
     (_, Nothing) ->
       maybe
@@ -204,6 +195,19 @@ passOf visit travelHeight (left, z) sectionsFrom = do
       (Just _, p) -> p
       (Nothing, Just p) | LinkingMove.isFirst visit -> Just p
       (Nothing, _) -> Just currentPoint
+
+-- | The milling with an approach that goes straight to the clearance height @c@, and on to the point
+-- @q@ at this height. @word@ is the region of the statement's first word.
+goingOver :: Region -> Mm -> Point -> Milling -> Milling
+goingOver word c q milling =
+  milling {Part.approach = Part.approach milling <> straight <> [over]}
+  where
+    over = Part.Stop (Located word q) (Just c) Part.Rapid
+    straight =
+      [ s {Part.level = Just c, Part.pace = Part.Rapid}
+        | s <- take 1 (reverse (Part.approach milling)),
+          maybe False (/= c) (Part.level s)
+      ]
 
 -- | The moves of a section of a pass at the height @z@; @word@ is the region of the statement's
 -- first word. A linking move over a wall rises to the clearance height @travelHeight@ and plunges

@@ -139,16 +139,25 @@ itemsOfBlock machine isFlat left@(along, clearing) visit@(begin, _, block, _) = 
 
 -- | Milling of a pocket's wall, with another stop of the approach at the clearance height, if the
 -- block @block@ has it: if a wall lies between the position where the cutter would plunge and the
--- beginning @first@ of the first loop, the cutter goes on to this point before it plunges.
+-- beginning @first@ of the first loop, the cutter goes on to this point before it plunges. If the
+-- last stop is at another height, the cutter first goes straight to the clearance height there.
 overWall :: Region -> Block -> Point -> Milling -> Milling
 overWall region block first milling = case Part.clearance milling of
   Just clear
     | not (null (Part.approach milling)),
       Toolpath.Clearing {Toolpath.approach} <- block,
       any (endsOver clear) approach ->
-      milling {Part.approach = Part.approach milling <> [stop clear]}
+      milling
+        { Part.approach =
+            Part.approach milling
+              <> map (atClearance clear) (filter (isElsewhere clear) (lastStop milling))
+              <> [stop clear]
+        }
   _ -> milling
   where
+    lastStop = take 1 . reverse . Part.approach
+    isElsewhere clear s = maybe False (/= clear) (Part.level s)
+    atClearance clear s = s {Part.level = Just clear, Part.pace = Part.Rapid}
     stop clear = Part.Stop (Located region first) (Just clear) Part.Rapid
     endsOver clear m =
       Segment.end (Toolpath.segment m) == first && Toolpath.heights m == (clear, clear)
