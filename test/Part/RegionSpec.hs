@@ -14,6 +14,7 @@ import Geometry.Polyarc qualified as Polyarc
 import Geometry.Segment (Segment)
 import Geometry.Segment qualified as Segment
 import Geometry.Vec qualified as Vec
+import Machines qualified
 import Part.Part
   ( Contour (contourName),
     Element (finish, ofCurve),
@@ -130,6 +131,26 @@ machining = do
             )
     ]
       `shouldBe` [(1, 1200), (0, 400)]
+  it
+    "of random regions is proven, or refused before there is a tape (catches a hole on the side of \
+    \the part)"
+    $ withMaxSuccess 60 . forAll expression $ \e ->
+      forAll (Test.QuickCheck.elements ["iso6983", "linuxcnc-mill", "lki-un"]) $ \machine ->
+        conjoin
+          [ let outcome =
+                  Compile.compile
+                    (Machines.jobFor (Machines.named machine) [])
+                    (LoadedProgram.fromText "p.part" (header <> statement))
+                codes = [code | r <- Result.errors outcome, ReportCode code <- [Report.code r]]
+                shown = Text.unpack statement <> show codes
+             in cover 20 (null codes) "tapes" . counterexample shown $
+                  not (any ("E07" `Text.isPrefixOf`) codes)
+            | statement <-
+                [ "mill " <> e <> " outside { depth 2 plunge 40 rest allowed }\n",
+                  "mill " <> e <> " inside { depth 2 plunge 40 rest allowed }\n",
+                  "pocket " <> e <> " step 1.2 { depth 1 plunge 40 climb rest allowed }\n"
+                ]
+          ]
   it "is refused for an empty region" $
     map
       (codesOf . (plate <>))
@@ -214,6 +235,44 @@ shapes = do
       m <- elements [0.5, 1, 2.5, 6]
       angle <- elements [14.5, 20, 25]
       pure (m, fromIntegral z, angle)
+
+-- | A random region as the program writes it. Its coordinates are halves of mm, so that many of its
+-- elements touch or coincide.
+expression :: Gen Text
+expression = sized (go . min 3 . (`div` 20) . (+ 20))
+  where
+    go :: Int -> Gen Text
+    go n
+      | n <= 0 = outline
+      | otherwise =
+        oneof
+          [ do
+              word <- Test.QuickCheck.elements ["union", "difference", "intersection"]
+              call word <$> sequence [("region(" <>) . (<> ")") <$> go (n - 1), go (n - 1)],
+            do
+              e <- go (n - 1)
+              d <- Test.QuickCheck.elements ["1", "-1", "2.5"]
+              pure (call "offset_of" [e, d]),
+            do
+              e <- go (n - 1)
+              a <- Test.QuickCheck.elements ["90", "30", "45"]
+              pure (call "rotated" [call "region" [e], a])
+          ]
+    outline =
+      oneof
+        [ call "rectangle" <$> sequence [place, size, size],
+          call "rounded" <$> sequence [place, size, size, pure "1.5"],
+          call "slot" <$> sequence [place, place, pure "4"],
+          call "circle" <$> sequence [place, size],
+          (\p r n -> call "polygon" [call "circle" [p, r], n])
+            <$> place <*> size <*> Test.QuickCheck.elements ["3", "4", "6"],
+          (\p a b -> call "ellipse" [p, a, b]) <$> place <*> size <*> size
+        ]
+    place = (\x y -> "(" <> x <> ", " <> y <> ")") <$> half (-20) 20 <*> half (-20) 20
+    size = half 7 40
+    half :: Int -> Int -> Gen Text
+    half low high = number . (/ 2) . fromIntegral <$> choose (low, high)
+    call word arguments = word <> "(" <> Text.intercalate ", " arguments <> ")"
 
 -- | Holds if assertions hold in a program with two squares.
 holding :: [Text] -> Expectation
