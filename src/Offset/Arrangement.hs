@@ -421,7 +421,7 @@ intersectingSegments (low, high) a =
 loops :: Sense -> Int -> Arrangement -> Maybe OffsetLoops
 loops sense wanted a =
   toLoops . map vertices
-    <$> closedChains next (IntSet.fromList [e | e <- [0 .. Vector.length (edges a) - 1], isKept e])
+    <$> closedChains next (IntSet.fromList (filter isKept [0 .. Vector.length (edges a) - 1]))
   where
     isKept e =
       let (l, r) = sides a (2 * e)
@@ -460,7 +460,8 @@ data BoundaryEdge = BoundaryEdge
 -- close.
 boundary :: (Int -> Bool) -> Arrangement -> Maybe [NonEmpty BoundaryEdge]
 boundary isInside a =
-  map (fmap (boundaryEdge a)) . concatMap (simpleLoops a) <$> closedChains next (IntSet.fromList kept)
+  map (fmap (boundaryEdge a)) . concatMap (simpleLoops a)
+    <$> closedChains next (IntSet.fromList kept)
   where
     kept = filter isKept [0 .. 2 * Vector.length (edges a) - 1]
     isKept h = let (l, r) = sides a h in isInside l && not (isInside r)

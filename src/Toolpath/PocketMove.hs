@@ -196,8 +196,8 @@ passOf visit travelHeight (left, z) sectionsFrom = do
       (Nothing, Just p) | LinkingMove.isFirst visit -> Just p
       (Nothing, _) -> Just currentPoint
 
--- | The milling with an approach that goes straight to the clearance height @c@, and on to the point
--- @q@ at this height. @word@ is the region of the statement's first word.
+-- | The milling with an approach that goes straight to the clearance height @c@, and on to the
+-- point @q@ at this height. @word@ is the region of the statement's first word.
 goingOver :: Region -> Mm -> Point -> Milling -> Milling
 goingOver word c q milling =
   milling {Part.approach = Part.approach milling <> straight <> [over]}
