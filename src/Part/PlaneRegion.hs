@@ -14,7 +14,6 @@ module Part.PlaneRegion
     offsetBy,
     area,
     centroid,
-    renamed,
     mapContours,
   )
 where
@@ -301,10 +300,6 @@ centroid region = case contoursOf region of
         moments = map (Polyarc.firstMoment origin . polyarcOf) (contoursOf region)
         sum' = foldr Vec.add (Vec.vec 0 0) moments
      in Just (Vec.shift (Vec.scale (1 / area region) sum') origin)
-
--- | The region with another name for its contours.
-renamed :: Located Name -> PlaneRegion -> PlaneRegion
-renamed name = mapContours (\c -> c {contourName = name})
 
 -- | The region with changed contours.
 mapContours :: (Contour -> Contour) -> PlaneRegion -> PlaneRegion
