@@ -91,7 +91,8 @@ signedArea (Polyarc _ ss) = areaOf id ss
 --
 -- The area is a sum over the segments. Each contributes the signed area of a triangle: its corners
 -- are the polyarc's start point and the segment's ends (shoelace formula). An arc of radius r and
--- sweep φ also contributes the region between arc and chord, with the area @r²·(φ − sin φ)/2@.
+-- sweep φ also contributes the region between arc and chord, with the area @r²·(φ − sin φ)/2@. For
+-- a flat arc this loses digits, so the first terms of its power series take its place.
 areaOf :: (a -> Segment) -> NonEmpty a -> Double
 areaOf get (first :| others) = go 0 first others
   where
@@ -104,7 +105,9 @@ areaOf get (first :| others) = go 0 first others
     circularSegment s = case s of
       Straight _ _ -> 0
       Arc {start, centre, sweep = Rad a} ->
-        let v = Vec.to centre start in Vec.dot v v * (a - sin a) / 2
+        let v = Vec.to centre start
+            beyond = if abs a < 1e-3 then a * a * a / 6 * (1 - a * a / 20) else a - sin a
+         in Vec.dot v v * beyond / 2
 {-# INLINE areaOf #-}
 
 -- | The first moment of the area that a closed polyarc encloses, about the point @o@, in mm³: the

@@ -32,7 +32,7 @@ import Data.Vector qualified as Vector
 import Geometry.Carrier (Side (..))
 import Geometry.ClosedPolyarcs qualified as ClosedPolyarcs
 import Geometry.FlatPolyarc qualified as FlatPolyarc
-import Geometry.Polyarc (Ends (Closed, Open), Polyarc)
+import Geometry.Polyarc (Ends (Closed, Open))
 import Geometry.Polyarc qualified as Polyarc
 import Geometry.Segment (Segment (..))
 import Geometry.Segment qualified as Segment
@@ -286,10 +286,7 @@ offsetElements at loop = NonEmpty.zipWith element (NonEmpty.last loop :| NonEmpt
 
 -- | The area in mm².
 area :: PlaneRegion -> Double
-area = sum . map (areaOf . polyarcOf) . contoursOf
-
-areaOf :: Polyarc -> Double
-areaOf = FlatPolyarc.area . fst . FlatPolyarc.fromPolyarc
+area = sum . map (Polyarc.signedArea . polyarcOf) . contoursOf
 
 -- | The centre of gravity of a region of even thickness; Nothing for an empty region.
 centroid :: PlaneRegion -> Maybe Point
