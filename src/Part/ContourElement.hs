@@ -147,11 +147,9 @@ linkedElements (ItemPlace whole at mayBeClosed) sense v finish link = case (v, s
   (CurveValue c, Nothing) ->
     let ends' = Curve.ends c
      in one (OnCurve (Curve.approximation c)) (listToMaybe ends') (listToMaybe (drop 1 ends'))
-  (ContourValue c, Nothing) -> case ends c of
-    Closed
-      | mayBeClosed -> pure (elementsOfClosed whole at finish link (NonEmpty.toList (elements c)))
-      | otherwise -> Evaluation.mistake (InContour (ClosedElement at (value (contourName c))))
-    Open -> pure (elementsOfContour whole at finish link (NonEmpty.toList (elements c)))
+  (ContourValue c, Nothing)
+    | ends c == Open || mayBeClosed -> pure (elementsOfContour whole at finish link c)
+    | otherwise -> Evaluation.mistake (InContour (ClosedElement at (value (contourName c))))
   _ -> bug "a value that is no element where one was checked"
   where
     -- Evaluates the element @w@ at once: a thunk of it would keep the value @v@ in memory.
@@ -170,49 +168,38 @@ linkedElements (ItemPlace whole at mayBeClosed) sense v finish link = case (v, s
               }
        in w `seq` pure [w]
 
--- | The elements that an open contour gives when it is used as an element of another contour: one
--- for each of its lines, arcs and curves. @whole@ is the region of the item that names the contour.
--- 'Fixed' links, which have the region @at@, join these
--- elements to one another. @link@ joins the last of them to the next element of the other contour.
--- @finish@ is that of the whole used contour; 'orElse' combines it with the finish of each element.
+-- | The elements that a contour gives when it is used as an element of another contour: one for
+-- each of its lines, arcs and curves. @whole@ is the region of the item that names the contour.
+-- 'Fixed' links, which have the region @at@, join the elements of an open contour to one another,
+-- and @link@ joins the last of them to the next element of the other contour. In a closed contour
+-- @link@ is at each corner, and the arc of a fillet turns as the corner does. @finish@ is that of
+-- the whole used contour; 'orElse' combines it with the finish of each element.
 elementsOfContour ::
   Region ->
   Region ->
   Finish ->
   Maybe (Region, Link) ->
-  [Part.Element] ->
+  Contour ->
   [LinkSolver.LinkedElement]
-elementsOfContour whole at finish link segments = case Part.curveRuns segments of
-  [] -> []
-  curves -> zipWith (elementOfRun whole finish) curves (map fixed (init curves) <> [link])
+elementsOfContour whole at finish link c =
+  case (Part.curveRuns (NonEmpty.toList (elements c)), ends c) of
+    ([], _) -> []
+    (runs, Open) -> zipWith run runs (map fixed (init runs) <> [link])
+    ([one], Closed) -> [run one link]
+    (runs, Closed) -> zipWith run runs (zipWith joint runs (drop 1 runs <> take 1 runs))
   where
-    fixed curve = Just (at, Fixed (Segment.end (Part.segment (NonEmpty.last curve))))
-
--- | The elements of a closed contour that is the only element of another one. @link@ is at each of
--- its corners. The arc of a fillet turns as the corner does.
-elementsOfClosed ::
-  Region ->
-  Region ->
-  Finish ->
-  Maybe (Region, Link) ->
-  [Part.Element] ->
-  [LinkSolver.LinkedElement]
-elementsOfClosed whole at finish link segments = case Part.curveRuns segments of
-  [one] -> [elementOfRun whole finish one link]
-  runs -> zipWith run runs (drop 1 runs <> take 1 runs)
-  where
-    run a b = elementOfRun whole finish a (joint a b)
+    run = elementOfRun whole finish
+    fixed r = Just (at, Fixed (Segment.end (Part.segment (NonEmpty.last r))))
     joint a b =
-      let p = Part.segment (NonEmpty.last a)
-          Rad turn =
+      let Rad turn =
             Vec.signedAngle
-              (Segment.endDirection p)
+              (Segment.endDirection (Part.segment (NonEmpty.last a)))
               (Segment.startDirection (Part.segment (NonEmpty.head b)))
           Rad smooth = Tolerance.smoothAngle
           sense = if turn > 0 then CounterClockwise else Clockwise
        in case link of
             Just (there, l) | abs turn > smooth -> Just (there, turned sense l)
-            _ -> Just (at, Fixed (Segment.end p))
+            _ -> fixed a
     turned sense l = case l of
       Fillet _ r -> Fillet sense r
       _ -> l
