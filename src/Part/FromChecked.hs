@@ -162,7 +162,7 @@ step state (Located at s) = case s of
   Checked.SafeHeight e ->
     keep (lengthOf env Parameter.SafeHeight e) (\z -> state {safe' = Just (Located (region e) z)})
   Checked.LetValue name d e ->
-    keep (named name <$> Expression.evaluate env e) $ \v ->
+    keep (named env name <$> Expression.evaluate env e) $ \v ->
       drawn env e v (define state name d v)
   Checked.LetFunction name parameters body -> defineFunction state name parameters body
   Checked.Table name columns ->
@@ -307,15 +307,16 @@ define state name d v =
           locals = Map.delete (value name) (locals env)
         }
 
--- | A value with its name on the contours that a function has made.
-named :: Located Name -> Value -> Value
-named name v = case v of
-  ContourValue c | isMade c -> ContourValue c {contourName = name}
+-- | A value with its name on the contours that a function of the language has made. Such a contour
+-- has the name of the function, unless the program has given this name to something else.
+named :: Environment -> Located Name -> Value -> Value
+named env name v = case v of
+  ContourValue c -> ContourValue (renamed c)
   RegionValue r -> RegionValue (PlaneRegion.mapContours renamed r)
   _ -> v
   where
-    isMade c = let Name text = value (contourName c) in isJust (Builtin.lookup text)
-    renamed c = if isMade c then c {contourName = name} else c
+    renamed c = if isMade (value (contourName c)) then c {contourName = name} else c
+    isMade own@(Name text) = isJust (Builtin.lookup text) && not (Map.member own (values env))
 
 -- | Adds the contours of a region, so that it is drawn even if nothing mills it. Those of the
 -- regions of which the expression @e@ makes it are no longer drawn.

@@ -3,7 +3,8 @@
 -- The rim of a pocket ("Verify.Pocket") is the path of the cutter's centre beside its walls, in
 -- their direction. A motion along the rim in this direction has the free space on the same side as
 -- the walls have it. In a passage of the cutter's width both directions run along the rim, and any
--- motion is right there.
+-- motion is right there. A motion in the other direction is right too where another one runs along
+-- the same part of the rim in the direction asked: it may be a linking move.
 module Verify.PocketSense
   ( againstSense,
   )

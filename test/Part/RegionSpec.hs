@@ -104,6 +104,17 @@ regions = do
       "contour slot closed { rectangle((0, 0), 40, 10) }\nlet union = 5 mm\n\
       \let gear(x) = x + union\nlet y = gear(2)\n"
       `shouldBe` []
+  it "give their contours the name of the let, but not the program's own (catches a renamed slot)" $
+    [ name
+      | c <-
+          contours
+            ( partOf
+                "contour slot closed { rectangle((0, 0), 40, 10) }\nlet again = region(slot)\n\
+                \let pad = region(rounded((50, 0), 9, 9, 2))\n"
+            ),
+        Located _ (Name name) <- [contourName c]
+    ]
+      `shouldBe` ["slot", "slot", "pad"]
   it "are refused for what has no inside" $
     map
       codesOf
