@@ -261,6 +261,8 @@ partOf at operation =
       Part.workOffset = Nothing,
       Part.programNumber = Nothing,
       Part.safeHeight = Nothing,
+      Part.stock = Nothing,
+      Part.avoided = [],
       Part.contours = [],
       Part.operations = [operation],
       Part.fittings = [],
@@ -273,10 +275,11 @@ partOf at operation =
       Part.Mill (Located _ m) -> mill m
       Part.Pocket (Located _ p) -> mill (Part.wall p)
       Part.Drill (Located _ d) ->
-        Just (Part.Cutter Part.DrillingCutter (Part.drillRadius d) Nothing Nothing)
+        Just (tool Part.DrillingCutter (Part.drillRadius d))
       Part.Travel _ -> Nothing
       Part.Command _ -> Nothing
-    mill m = Just (Part.Cutter Part.MillingCutter (Part.radius m) Nothing Nothing)
+    tool kind r = Part.Cutter kind r Nothing Nothing r Part.plainBody
+    mill m = Just (tool Part.MillingCutter (Part.radius m))
 
 -- | A toolpath of one rapid move, from (0, 0) to a point by its coordinates in mm.
 straightPath :: Double -> Double -> Toolpath

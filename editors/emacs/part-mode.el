@@ -76,7 +76,7 @@
     ("\\_<\\(?:part\\|let\\|param\\|table\\|curve\\|piece\\|contour\\)[ \t]+\\(\\(?:\\sw\\|\\s_\\)+\\)"
      1 font-lock-variable-name-face)
     ;; These words begin a line; elsewhere they are names.
-    ("^[ \t]*\\(pocket\\|work\\|program\\|safe\\|dwell\\)[ \t]+[(-]?\\(?:\\sw\\|\\s_\\)"
+    ("^[ \t]*\\(pocket\\|work\\|program\\|safe\\|stock\\|avoid\\|dwell\\)[ \t]+[(-]?\\(?:\\sw\\|\\s_\\)"
      1 font-lock-keyword-face)
     ("^[ \t]*\\(\\(?:optional[ \t]+\\)?stop\\)[ \t]*\\(?:--.*\\)?$" 1 font-lock-keyword-face)
     ("^[ \t]*\\(units\\)[ \t]+\\(mm\\|in\\)\\_>"
@@ -91,6 +91,7 @@
     ("^[ \t]*spindle[ \t].*\\_<\\(limit\\)\\_>" 1 font-lock-keyword-face)
     ("\\_<change\\_>.*)[ \t]*\\(at\\)\\_>" 1 font-lock-keyword-face)
     ("^[ \t]*dwell[ \t].*\\_<\\(s\\)[ \t]*\\(?:--.*\\)?$" 1 font-lock-keyword-face)
+    ("^[ \t]*\\(?:stock\\|avoid\\)[ \t].*?\\_<from\\_>.*?\\_<\\(to\\)\\_>" 1 font-lock-keyword-face)
     ("\\_<corners[ \t]+\\(round\\|sharp\\)\\_>" 1 font-lock-keyword-face)
     ("\\_<compensation[ \t]+\\(compiler\\|controller\\)\\_>" 1 font-lock-keyword-face)
     ("\\_<rest[ \t]+\\(allowed\\)\\_>" 1 font-lock-keyword-face)
@@ -98,6 +99,8 @@
     ("\\_<\\(cone\\|blade\\)(" 1 font-lock-keyword-face)
     ("(\\(diameter\\|nose\\)\\_>" 1 font-lock-keyword-face)
     (",[ \t]*\\(height\\|gear\\)\\_>" 1 font-lock-keyword-face)
+    (",[ \t]*\\(flutes\\|stickout\\|holder\\)[ \t]+[(-]?\\(?:\\sw\\|\\s_\\)" 1 font-lock-keyword-face)
+    (",[ \t]*holder[ \t]\\(?:[^,()\n]\\|([^()\n]*)\\)*\\_<\\(height\\)[ \t]" 1 font-lock-keyword-face)
     ("\\_<turn(.*,[ \t]*\\(tip\\)\\_>" 1 font-lock-keyword-face)
     ("\\_<\\(cipher\\|joggle\\)\\_>" 1 font-lock-keyword-face)
     ("\\_<joggle\\_>.*\\_<\\(to\\)\\_>.*\\_<\\(depth\\)\\_>.*\\_<\\(radius\\)\\_>"

@@ -50,7 +50,7 @@ provide-module part %§
     # The other words that cannot be names
     add-highlighter shared/part/code/ regex \b(for|if|in|then|else|and|or|not|open|closed|cw|ccw|meet|near|smooth|tangent|fillet|chamfer|slow|allowance|bevel|outside|inside|left|right|on|within|first|last|approach|retract)\b 1:keyword
     # Words that begin a line and are names elsewhere
-    add-highlighter shared/part/code/ regex ^\h*(pocket|work|program|safe|dwell)\h+[(-]?\w 1:keyword
+    add-highlighter shared/part/code/ regex ^\h*(pocket|work|program|safe|stock|avoid|dwell)\h+[(-]?\w 1:keyword
     add-highlighter shared/part/code/ regex ^\h*((?:optional\h+)?stop)\h*$ 1:keyword
     add-highlighter shared/part/code/ regex ^\h*(units)\h+(mm|in)\b 1:keyword 2:type
     add-highlighter shared/part/code/ regex (?:^|\{)\h*(depth|lead|corners|climb|conventional|compensation|start|plunge|peck|islands|rest)\b 1:keyword
@@ -62,6 +62,7 @@ provide-module part %§
     add-highlighter shared/part/code/ regex ^\h*spindle\h[^\n]*\b(limit)\b 1:keyword
     add-highlighter shared/part/code/ regex \bchange\b[^\n]*\)\h*(at)\b 1:keyword
     add-highlighter shared/part/code/ regex ^\h*dwell\h[^\n]*\b(s)\h*$ 1:keyword
+    add-highlighter shared/part/code/ regex ^\h*(?:stock|avoid)\h[^\n]*?\bfrom\b[^\n]*?\b(to)\b 1:keyword
     add-highlighter shared/part/code/ regex \bcorners\h+(round|sharp)\b 1:keyword
     add-highlighter shared/part/code/ regex \bcompensation\h+(compiler|controller)\b 1:keyword
     add-highlighter shared/part/code/ regex \brest\h+(allowed)\b 1:keyword
@@ -74,6 +75,8 @@ provide-module part %§
     add-highlighter shared/part/code/ regex \b(cone|blade)\( 1:keyword
     add-highlighter shared/part/code/ regex \((diameter|nose)\b 1:keyword
     add-highlighter shared/part/code/ regex ,\h*(height|gear)\b 1:keyword
+    add-highlighter shared/part/code/ regex ,\h*(flutes|stickout|holder)\h+[(-]?\w 1:keyword
+    add-highlighter shared/part/code/ regex ,\h*holder\h(?:[^,()\n]|\([^()\n]*\))*\b(height)\h 1:keyword
     add-highlighter shared/part/code/ regex \bturn\([^\n]*,\h*(tip)\b 1:keyword
 
     # Functions and constants

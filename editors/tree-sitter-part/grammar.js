@@ -44,6 +44,8 @@ module.exports = grammar({
     // `rapid` and `feed` on the line of the point before them
     $._rapid_here,
     $._feed_here,
+    // `from` on the line of the region before it
+    $._from_here,
     // nothing, where more text follows on the line
     $._same_line,
     // valid only while tree-sitter recovers from an error
@@ -59,7 +61,7 @@ module.exports = grammar({
 
     _statement: $ => choice(
       $.part, $.units, $.machine, $.import, $.tool, $.feed, $.tolerance, $.clearance, $.from,
-      $.work, $.program_number, $.safe,
+      $.work, $.program_number, $.safe, $.stock, $.avoid,
       $.let, $.param, $.table, $.curve, $.piece, $.contour, $.assert,
       $.mill, $.turn, $.pocket, $.drill, $.rapid, $.move,
       $.change, $.spindle, $.coolant, $.aux, $.program_stop, $.optional_stop, $.dwell,
@@ -83,6 +85,12 @@ module.exports = grammar({
     work: $ => seq('work', $._expression),
     program_number: $ => seq('program', $._expression),
     safe: $ => seq('safe', $._expression),
+    stock: $ => seq('stock', field('region', $._expression), optional($._heights)),
+    avoid: $ => seq('avoid', field('region', $._expression), optional($._heights)),
+    _heights: $ => seq(
+      alias($._from_here, 'from'), field('bottom', $._expression),
+      'to', field('top', $._expression),
+    ),
 
     let: $ => seq(
       'let',
@@ -176,7 +184,19 @@ module.exports = grammar({
       $.cone,
       $.blade,
     ),
-    upright_cutter: $ => seq(choice('mill', 'drill'), '(', 'diameter', $._expression, ')'),
+    upright_cutter: $ => seq(
+      choice('mill', 'drill'),
+      '(',
+      'diameter', $._expression,
+      repeat(seq(',', choice($.flutes, $.stickout, $.holder))),
+      ')',
+    ),
+    flutes: $ => seq('flutes', $._expression),
+    stickout: $ => seq('stickout', $._expression),
+    holder: $ => seq(
+      'holder', field('diameter', $._expression),
+      optional(seq('height', field('height', $._expression))),
+    ),
     turning_cutter: $ => seq(
       'turn', '(', 'nose', $._expression, optional(seq(',', 'tip', $._expression)), ')',
     ),

@@ -187,6 +187,8 @@ typedExpressions s = case value s of
   Clearance e -> [(Just Type.len, e)]
   Tolerance _ -> lengths
   SafeHeight e -> [(Just Type.len, e)]
+  Stock e zs -> (Nothing, e) : typedHeights zs
+  Avoid e zs -> (Nothing, e) : typedHeights zs
   Tool _ _ -> []
   Change _ _ place -> [(Nothing, e) | Just e <- [place]]
   Spindle _ -> [(Just Type.spindleSpeed, e) | e <- SyntaxWalk.ofStatement s]
@@ -201,6 +203,7 @@ typedExpressions s = case value s of
   _ -> [(Nothing, e) | e <- SyntaxWalk.ofStatement s]
   where
     lengths = [(Just Type.len, e) | e <- SyntaxWalk.ofStatement s]
+    typedHeights zs = [(Just Type.len, z) | Just (a, b) <- [zs], z <- [a, b]]
 
 typedItem :: Item -> [(Maybe Type, Expr)]
 typedItem i = case value i of

@@ -171,6 +171,12 @@ statement env (Located at s) = case s of
   Surface.WorkOffset e -> one (fmap Checked.WorkOffset <$> expect env Type.number e)
   Surface.ProgramNumber e -> one (fmap Checked.ProgramNumber <$> expect env Type.number e)
   Surface.SafeHeight e -> one (fmap Checked.SafeHeight <$> expect env Type.len e)
+  Surface.Stock e zs ->
+    one $
+      (\e' zs' sol -> Checked.Stock (e' sol) (zs' sol)) <$> bounded env e <*> heights env zs
+  Surface.Avoid e zs ->
+    one $
+      (\e' zs' sol -> Checked.Avoid (e' sol) (zs' sol)) <$> bounded env e <*> heights env zs
   Surface.Assert e within -> one (fmap Checked.Assert <$> assertion env e within)
   Surface.Mill e side options ->
     one (machining env Checked.Mill "mill" (outlined env e) side options)
@@ -409,6 +415,14 @@ outlined env e = do
   unless (found == Type.PlaneRegion) (fit Type.Contour e t)
   pure e'
 
+-- | Checks the outline of a solid: a contour, a region or a circle.
+bounded :: TypingEnvironment -> Surface.Expr -> Infer (Deferred Checked.Expr)
+bounded env e = do
+  (t, e') <- infer env e
+  found <- Inference.resolved t
+  unless (found `elem` [Type.PlaneRegion, Type.Circle]) (fit Type.Contour e t)
+  pure e'
+
 -- | Checks a machining statement. @keyword@ is its first word, @e@ the check of its contour, and
 -- @options@ are the settings in its block. @make@ builds the checked statement.
 machining ::
@@ -433,8 +447,8 @@ atPace motion s = case (motion, Surface.pace s) of
 
 cutter :: TypingEnvironment -> Surface.Cutter -> Infer (Deferred Checked.Cutter)
 cutter env (Located at c) = fmap (Located at .) $ case c of
-  Surface.MillCutter e -> (Checked.MillCutter .) <$> len e
-  Surface.DrillCutter e -> (Checked.DrillCutter .) <$> len e
+  Surface.MillCutter e sizes -> sized Checked.MillCutter e sizes
+  Surface.DrillCutter e sizes -> sized Checked.DrillCutter e sizes
   Surface.TurningCutter e tip ->
     (\e' tip' sol -> Checked.TurningCutter (e' sol) (($ sol) <$> tip'))
       <$> len e <*> traverse (expect env Type.number) tip
@@ -445,6 +459,27 @@ cutter env (Located at c) = fmap (Located at .) $ case c of
     (\d' g' sol -> Checked.BladeCutter (d' sol) (g' sol)) <$> len d <*> len g
   where
     len = expect env Type.len
+    sized make e sizes =
+      (\e' sizes' sol -> make (e' sol) (map ($ sol) sizes'))
+        <$> len e <*> traverse (bodySize env) sizes
+
+bodySize :: TypingEnvironment -> Surface.BodySize -> Infer (Deferred Checked.BodySize)
+bodySize env (Located at s) = fmap (Located at .) $ case s of
+  Surface.Flutes e -> (Checked.Flutes .) <$> len e
+  Surface.StickOut e -> (Checked.StickOut .) <$> len e
+  Surface.HolderCylinder d h ->
+    (\d' h' sol -> Checked.HolderCylinder (d' sol) (($ sol) <$> h')) <$> len d <*> traverse len h
+  where
+    len = expect env Type.len
+
+-- | Checks the heights of the bottom and of the top of a body.
+heights ::
+  TypingEnvironment ->
+  Maybe (Surface.Expr, Surface.Expr) ->
+  Infer (Deferred (Maybe (Checked.Expr, Checked.Expr)))
+heights env zs =
+  (\zs' sol -> (\(a, b) -> (a sol, b sol)) <$> zs')
+    <$> traverse (\(a, b) -> (,) <$> expect env Type.len a <*> expect env Type.len b) zs
 
 tolerance :: TypingEnvironment -> Surface.Accuracy -> Infer (Deferred Checked.Accuracy)
 tolerance env accuracy = case accuracy of

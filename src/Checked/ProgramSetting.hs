@@ -22,6 +22,7 @@ data ProgramSetting
   | WorkSetting
   | NumberSetting
   | SafeSetting
+  | StockSetting
   deriving stock (Eq, Ord, Show)
 
 -- | The words for a setting in a report.
@@ -37,6 +38,7 @@ description setting = case setting of
   WorkSetting -> "the work offset"
   NumberSetting -> "the number of the program"
   SafeSetting -> "the safe height"
+  StockSetting -> "the stock"
 
 -- | A statement that makes a setting.
 example :: ProgramSetting -> Text
@@ -51,3 +53,4 @@ example setting = case setting of
   WorkSetting -> "work 54"
   NumberSetting -> "program 1"
   SafeSetting -> "safe 40 mm"
+  StockSetting -> "stock rectangle(100, 60) from -20 to 0"

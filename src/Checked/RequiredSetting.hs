@@ -137,6 +137,8 @@ requirement s = case s of
   Surface.WorkOffset _ -> global WorkSetting
   Surface.ProgramNumber _ -> global NumberSetting
   Surface.SafeHeight _ -> global SafeSetting
+  Surface.Stock _ _ -> global StockSetting
+  Surface.Avoid _ _ -> none {keywordLength = 5}
   Surface.Import _ -> none {keywordLength = 6, isGlobal = True}
   Surface.Param _ _ -> none {keywordLength = 5, isGlobal = True}
   Surface.Feed _ -> none {given = Just FeedSetting}
@@ -183,7 +185,8 @@ settingByKeyword =
     ("from", FromSetting),
     ("work", WorkSetting),
     ("program", NumberSetting),
-    ("safe", SafeSetting)
+    ("safe", SafeSetting),
+    ("stock", StockSetting)
   ]
 
 -- | The keyword of a statement that applies to the whole program, for the report of such a
@@ -198,6 +201,7 @@ globalKeyword s = case s of
   Surface.WorkOffset _ -> "work"
   Surface.ProgramNumber _ -> "program"
   Surface.SafeHeight _ -> "safe"
+  Surface.Stock _ _ -> "stock"
   Surface.Import _ -> "import"
   Surface.Param _ _ -> "param"
   _ -> "this"

@@ -11,6 +11,8 @@ module Checked.Syntax
     Statement_ (..),
     Cutter,
     Cutter_ (..),
+    BodySize,
+    BodySize_ (..),
     Columns (..),
     Cells (..),
     Cipher,
@@ -128,6 +130,10 @@ data Statement_
     WorkOffset Expr
   | ProgramNumber Expr
   | SafeHeight Expr
+  | -- | the region, and the heights of its bottom and of its top in mm
+    Stock Expr (Maybe (Expr, Expr))
+  | -- | a region in which no tool may be, and the heights of its bottom and of its top in mm
+    Avoid Expr (Maybe (Expr, Expr))
   | -- | the name, the dimension of the quantities in the value, and the expression of the value
     LetValue (Located Name) Dimension Expr
   | LetFunction Name (NonEmpty Name) Expr
@@ -203,14 +209,22 @@ type Cutter = Located Cutter_
 -- | A tool: a cutter or a drill by its diameter in mm, a turning tool by the radius of its nose in
 -- mm, and by the direction of its tip if the program gives it.
 data Cutter_
-  = MillCutter Expr
-  | DrillCutter Expr
+  = MillCutter Expr [BodySize]
+  | DrillCutter Expr [BodySize]
   | TurningCutter Expr (Maybe Expr)
   | -- | a conical cutter: the diameter of its tip, the bevel of its flank, and the height above the
     -- tip at which the flank touches the contour
     ConeCutter Expr Expr Expr
   | -- | a swivelling blade: its diameter, and the diameter of the wheel that swivels it
     BladeCutter Expr Expr
+  deriving stock (Eq, Show)
+
+-- | A size of the body of a tool, with its region.
+type BodySize = Located BodySize_
+
+-- | A size of the body of a tool in mm: the length of the cutting edges, the length from the tip to
+-- the holder, or the diameter of a cylinder of the holder and its height.
+data BodySize_ = Flutes Expr | StickOut Expr | HolderCylinder Expr (Maybe Expr)
   deriving stock (Eq, Show)
 
 -- | The allowed chord error in mm: the same on both sides of the toolpath, or one towards the

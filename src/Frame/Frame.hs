@@ -125,7 +125,9 @@ data PlannedFrame = PlannedFrame
     -- | the text in the part program that asks for the frame
     origin :: Region,
     -- | radius in mm of the cutter in the spindle; 0 for a frame of commands
-    cutterRadius :: Mm
+    cutterRadius :: Mm,
+    -- | tool in the spindle: the count of tool changes before the frame; 0 for a frame of commands
+    toolIndex :: Int
   }
   deriving stock (Eq, Show)
 

@@ -308,7 +308,7 @@ addCommands context made Pending {asked, given} =
     context
     Rapid
     (at made)
-    (PlannedFrame (Frame.commandFrame given) Commanding asked (Mm 0))
+    (PlannedFrame (Frame.commandFrame given) Commanding asked (Mm 0) 0)
     made
 
 -- | Adds the frame of a step of the instruction, with the pending commands. A step without motion
@@ -316,7 +316,7 @@ addCommands context made Pending {asked, given} =
 addStep :: Context -> Instruction -> Making -> ArcStep -> Making
 addStep context@Context {machine} instruction made step = case instruction of
   Words _ _ -> made
-  Run {role, cutterRadius, feedMode, run = m :| _} ->
+  Run {role, cutterRadius, toolIndex, feedMode, run = m :| _} ->
     case frameOf machine feedMode (Toolpath.pace m) (at made) step of
       Nothing -> made {at = target step}
       Just f ->
@@ -325,14 +325,14 @@ addStep context@Context {machine} instruction made step = case instruction of
               context
               (if feedMode == AsProgrammed then Toolpath.pace m else Part.Rapid)
               (target step)
-              (PlannedFrame f' role (origin m) cutterRadius)
+              (PlannedFrame f' role (origin m) cutterRadius toolIndex)
               made {pending = Nothing}
 
 -- | Adds the frame @p@. @feed@ is its feed in the program. It is 'Part.Rapid' for a rapid move, for
 -- commands, and where the compiler sets the feed. @end@ is the position at the end of the frame in
 -- pulses.
 addFrame :: Context -> Pace -> Pulses3 -> PlannedFrame -> Making -> Making
-addFrame Context {frameContext} feed end p@(PlannedFrame _ _ asked _) made =
+addFrame Context {frameContext} feed end p@(PlannedFrame _ _ asked _ _) made =
   made
     { at = end,
       latest = p : latest made,

@@ -44,6 +44,8 @@ data Instruction
         tolerance :: ChordTolerance,
         -- | radius of the cutter in mm
         cutterRadius :: Mm,
+        -- | tool in the spindle: the count of tool changes before the run
+        toolIndex :: Int,
         feedMode :: FeedMode,
         run :: NonEmpty Move
       }
@@ -67,7 +69,14 @@ instructions machine path = concat (arranged (zip blocks ofBlocks))
   where
     blocks = Toolpath.blocks path
     passNumbers = Toolpath.passNumbers blocks
-    ofBlocks = zipWith4 (ofBlock machine) [0 ..] passNumbers (wallsOf blocks) blocks
+    ofBlocks =
+      zipWith
+        (\t -> map (withTool t))
+        (toolIndices blocks)
+        (zipWith4 (ofBlock machine) [0 ..] passNumbers (wallsOf blocks) blocks)
+    withTool t instruction = case instruction of
+      Run {} -> instruction {toolIndex = t}
+      Words _ _ -> instruction
     first = value <$> Toolpath.firstToolNumber (Toolpath.setup path)
     begin = CommandState.initial {CommandState.tool = first}
     arranged = case Machine.programForm machine of
@@ -93,6 +102,14 @@ byState machine states@(before, now) list = case list of
         | ws <- CommandState.between machine before now
       ]
     onlyReports made = [Words r t {Command.numbers = []} | Words r t <- made]
+
+-- | Count of tool changes before each block.
+toolIndices :: [Block] -> [Int]
+toolIndices = scanl (\n b -> if isChange b then n + 1 else n) 0
+  where
+    isChange b = case b of
+      Toolpath.Commanding (Located _ (Part.ChangeTool _ _)) -> True
+      _ -> False
 
 -- | Walls beside the passes of a toolpath, for each block. The passes of a statement share them.
 wallsOf :: [Block] -> [Walls]
@@ -149,10 +166,11 @@ ofBlock machine blockNumber n walls b = case b of
               along (Retracting n) retract
             ]
 
--- | Runs outside of milling, one for each move, with the cutter's radius in mm. All moves are
+-- | Runs outside of milling, one for each move, with the cutter's radius in mm, and with the tool
+-- index 0. All moves are
 -- straight, so the chord error is 0.
 straightRuns :: Role -> Mm -> [Move] -> [Instruction]
-straightRuns r radius = map (Run r (Sagitta (Mm 0)) radius AsProgrammed . (:| []))
+straightRuns r radius = map (Run r (Sagitta (Mm 0)) radius 0 AsProgrammed . (:| []))
 
 -- | Runs along the moves of a milling job, all with the role @r@. The function @limited@ may reduce
 -- the chord tolerance of a run.
@@ -164,7 +182,7 @@ milled ::
   [Move] ->
   [Instruction]
 milled machine job limited r =
-  map (\ms -> Run r (limited ms (tolerance ms)) (Part.radius job) AsProgrammed ms)
+  map (\ms -> Run r (limited ms (tolerance ms)) (Part.radius job) 0 AsProgrammed ms)
     . Toolpath.curveRuns
   where
     tolerance = ChordError.chordTolerance machine job

@@ -13,6 +13,7 @@ module Geometry.Distance
     segments,
     intersections,
     uncovered,
+    neighbourhood,
   )
 where
 

@@ -21,6 +21,8 @@ import Data.Text (Text)
 import Data.Text qualified as Text
 import Geometry.Vec (Point)
 import Geometry.Vec qualified as Vec
+import Part.BodyError (BodyMistake)
+import Part.BodyError qualified as BodyError
 import Part.ConstructionError (ConstructionFault)
 import Part.ConstructionError qualified as ConstructionError
 import Part.ContourError (ContourFault)
@@ -52,7 +54,7 @@ data Error = Error
   deriving stock (Eq, Show)
 
 -- | A mistake in a value, a statement or the geometry. The first field of a constructor is the
--- region that the report points at, and its comment names the other fields in order. The last five
+-- region that the report points at, and its comment names the other fields in order. The last six
 -- constructors contain facts of other modules.
 data ValueFact
   = DivisionByZero Region
@@ -100,6 +102,7 @@ data ValueFact
     NumberOfFirstTool Region Int Region
   | -- | a dwell that is too long: the longest one, in seconds
     DwellTooLong Region Seconds
+  | InBody BodyMistake
   | InConstruction ConstructionFault
   | InContour ContourFault
   | InCurve CurveMistake
@@ -266,6 +269,7 @@ factReport unit arguments fact = case fact of
   InCurve fault -> CurveError.toReport unit fault
   InPocket fault -> PocketError.toReport unit fault
   InRegion fault -> RegionError.toReport unit fault
+  InBody fault -> BodyError.toReport unit fault
 
 -- | The sentence that a quantity has the value @x@, which breaks a rule.
 limited :: LengthUnit -> LimitedQuantity -> Text -> Double -> Text

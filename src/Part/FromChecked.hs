@@ -9,7 +9,7 @@ where
 
 import Base.Crash (bug)
 import Base.Name (Name (..))
-import Base.Quantity (LengthUnit, Mm)
+import Base.Quantity (LengthUnit, Mm (..))
 import Base.Region (Located (..), Region)
 import Base.Result (Result (..))
 import Checked.Builtin qualified as Builtin
@@ -17,7 +17,7 @@ import Checked.Dimension (Dimension)
 import Checked.Dimension qualified as Dimension
 import Checked.Syntax (Expr)
 import Checked.Syntax qualified as Checked
-import Data.List (foldl')
+import Data.List (foldl', sortOn)
 import Data.List.NonEmpty (NonEmpty (..))
 import Data.List.NonEmpty qualified as NonEmpty
 import Data.Map.Strict qualified as Map
@@ -25,10 +25,13 @@ import Data.Maybe (fromMaybe, isJust)
 import Data.Set qualified as Set
 import Data.Text (Text)
 import Geometry.Carrier (Circle (Circle))
+import Geometry.Tolerance qualified as Tolerance
 import Geometry.Transformation (Transformation)
 import Geometry.Vec (Point)
 import Geometry.Vec qualified as Vec
 import Part.Assertion qualified as Assertion
+import Part.Body qualified as Body
+import Part.BodyError (BodyMistake (SafeBelowSolid))
 import Part.ContourElement qualified as ContourElement
 import Part.Curve (Fitting, PartCurve (..))
 import Part.CutFeed (SpindleRate (..))
@@ -57,6 +60,8 @@ data State = State
     offset' :: Maybe (Located Int),
     number' :: Maybe (Located Int),
     safe' :: Maybe (Located Mm),
+    stock' :: Maybe (Located Solid),
+    avoided' :: [Located Solid],
     -- | the highest clearance height so far
     highestClearance :: Maybe (Located Mm),
     start' :: Maybe (Located SpacePoint),
@@ -91,6 +96,8 @@ evaluate program =
           workOffset = offset' final,
           programNumber = number' final,
           safeHeight = safe' final,
+          stock = stock' final,
+          avoided = reverse (avoided' final),
           contours = reverse (contours' final),
           operations = reverse (operations' final),
           fittings = reverse (fittings' final),
@@ -99,14 +106,25 @@ evaluate program =
           namedPoints = reverse (namedPoints' final)
         }
 
--- | The error of a safe height that is lower than a clearance height of the program.
+-- | The errors of a safe height that is lower than a clearance height of the program, or than a
+-- solid that the program avoids.
 lowSafeHeight :: State -> [Error]
 lowSafeHeight final =
-  [ Error (SafeTooLow at safe (place, clearance)) [] []
+  [ Error fault [] []
     | Just (Located at safe) <- [safe' final],
-      Just (Located place clearance) <- [highestClearance final],
-      safe < clearance
+      fault <-
+        [ SafeTooLow at safe (place, clearance)
+          | Just (Located place clearance) <- [highestClearance final],
+            safe < clearance
+        ]
+          <> [ InBody (SafeBelowSolid at safe there (highest s))
+               | Located there s <- take 1 (sortOn (negate . top) (avoided' final)),
+                 safe < highest s,
+                 highest s < Tolerance.reach
+             ]
   ]
+  where
+    top (Located _ s) = let Mm z = highest s in z
 
 -- | The state before the first statement. @inUnit@ is the unit of lengths in texts of values.
 initial :: LengthUnit -> State
@@ -126,6 +144,8 @@ initial inUnit =
       offset' = Nothing,
       number' = Nothing,
       safe' = Nothing,
+      stock' = Nothing,
+      avoided' = [],
       highestClearance = Nothing,
       start' = Nothing,
       contours' = [],
@@ -161,6 +181,10 @@ step state (Located at s) = case s of
       state {number' = Just (Located (region e) n)}
   Checked.SafeHeight e ->
     keep (lengthOf env Parameter.SafeHeight e) (\z -> state {safe' = Just (Located (region e) z)})
+  Checked.Stock e zs ->
+    keep (Body.solid env e zs) (\b -> state {stock' = Just (Located at b)})
+  Checked.Avoid e zs ->
+    keep (Body.solid env e zs) (\b -> state {avoided' = Located at b : avoided' state})
   Checked.LetValue name d e ->
     keep (named env name <$> Expression.evaluate env e) $ \v ->
       drawn env e v (define state name d v)
@@ -387,10 +411,12 @@ transformed :: [Checked.Statement] -> Transformation -> State -> State
 transformed body placing state =
   inside
     { operations' =
-        map (Transformation.operation placing) (operations' inside) <> operations' state
+        map (Transformation.operation placing) (operations' inside) <> operations' state,
+      avoided' =
+        map (fmap (Transformation.solid placing)) (avoided' inside) <> avoided' state
     }
   where
-    inside = foldl step state {operations' = []} body
+    inside = foldl step state {operations' = [], avoided' = []} body
 
 -- Values whose type the checker knows
 

@@ -31,6 +31,7 @@ import Data.Vector qualified as Vector
 import Geometry.Segment qualified as Segment
 import Geometry.Tolerance qualified as Tolerance
 import Geometry.WindingNumber qualified as WindingNumber
+import Part.Body qualified as Body
 import Part.ContourElement qualified as ContourElement
 import Part.ContourError (ContourFault (OpenBegins))
 import Part.CurveError (CurveMistake (SteepBevel))
@@ -435,10 +436,12 @@ isMill cutterKind = case cutterKind of
 -- | Evaluates a tool. The result holds the radius at which the tool touches the part.
 cutterOf :: Environment -> Checked.Cutter -> Eval Cutter
 cutterOf env (Located _ c) = case c of
-  Checked.MillCutter e ->
-    sized MillingCutter e . times 0.5 <$> lengthOf env Parameter.CutterDiameter e
-  Checked.DrillCutter e ->
-    sized DrillingCutter e . times 0.5 <$> lengthOf env Parameter.DrillDiameter e
+  Checked.MillCutter e sizes ->
+    withBody sizes =<< sized MillingCutter e . times 0.5
+      <$> lengthOf env Parameter.CutterDiameter e
+  Checked.DrillCutter e sizes ->
+    withBody sizes =<< sized DrillingCutter e . times 0.5
+      <$> lengthOf env Parameter.DrillDiameter e
   Checked.ConeCutter e lean h -> cone env e lean h
   Checked.BladeCutter e g -> do
     d <- lengthOf env Parameter.BladeDiameter e
@@ -450,7 +453,8 @@ cutterOf env (Located _ c) = case c of
     tip <- traverse (whole env Parameter.TipDirection (1, 9)) tip'
     pure (sized TurningCutter e (Mm x)) {tip}
   where
-    sized kind' e r = Cutter kind' r (Just (region e)) Nothing
+    sized kind' e r = Cutter kind' r (Just (region e)) Nothing r plainBody
+    withBody sizes tool = (\b -> tool {body = b}) <$> Body.toolBody env sizes
 
 -- | Evaluates a conical cutter from three expressions: the diameter 2R of its tip (@e@), the angle
 -- μ between its flank and its axis (@lean@), and a height H (@h@). The flank touches the part at
@@ -465,7 +469,7 @@ cone env e lean h = do
     (Evaluation.mistake (InCurve (SteepBevel (region lean) Nothing (Rad mu))))
   let a = d / 2 + flank * tan mu
   when (a <= 0) (Evaluation.mistake (NotPositive (region lean) Parameter.RadiusAtHeight a))
-  pure (Cutter (if mu < 0 then DovetailCutter else ConeCutter) (Mm a) Nothing Nothing)
+  pure (Cutter (if mu < 0 then DovetailCutter else ConeCutter) (Mm a) Nothing Nothing (Mm (d / 2)) plainBody)
 
 -- | The allowed chord error that a @tolerance@ statement sets.
 accuracyOf :: Environment -> Checked.Accuracy -> Eval (Located Accuracy)

@@ -56,6 +56,12 @@ data LimitedQuantity
   | -- | the depth or the radius of a joggle, which is a local step of an edge
     JoggleMeasure
   | SafeHeight
+  | -- | the length of the cutting edges of a tool
+    FluteLength
+  | -- | the length of a tool from its tip to the holder
+    StickOut
+  | -- | the diameter or the height of a cylinder of a holder
+    HolderSize
   | -- | the time of a pause of the axes
     DwellTime
   deriving stock (Eq, Show)
@@ -90,6 +96,9 @@ name parameter = case parameter of
   ShapeSize -> "a size of a shape"
   JoggleMeasure -> "a measure of a joggle"
   SafeHeight -> "the safe height"
+  FluteLength -> "the length of the flutes"
+  StickOut -> "the stick-out"
+  HolderSize -> "a size of the holder"
   DwellTime -> "a dwell"
 
 -- | The text of a quantity, in which lengths and feeds have the given unit. @x@ is in mm\/min for a

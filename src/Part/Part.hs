@@ -27,6 +27,10 @@ module Part.Part
     Command (..),
     Cutter (..),
     CutterKind (..),
+    ToolBody (..),
+    plainBody,
+    HolderCylinder (..),
+    Solid (..),
     Stop (..),
     Pace (..),
     Ends (..),
@@ -87,6 +91,10 @@ data Part = Part
     programNumber :: Maybe (Located Int),
     -- | the height above all clamps, at least every clearance height
     safeHeight :: Maybe (Located Mm),
+    -- | the stock before the first operation, with the region of its statement
+    stock :: Maybe (Located Solid),
+    -- | the solids that no tool may touch, such as clamps, each with the region of its statement
+    avoided :: [Located Solid],
     contours :: [Contour],
     -- | all operations in the order in which the tape makes them
     operations :: [Operation],
@@ -360,8 +368,36 @@ data Cutter = Cutter
     cutterSize :: Maybe Region,
     -- | the direction of the tip of a turning tool, from 1 to 9, as the tool table of a control has
     -- it; absent if the program does not give it
-    tip :: Maybe Int
+    tip :: Maybe Int,
+    -- | the radius at the tip; the same as 'cutterRadius' unless the tool is conical
+    tipRadius :: Mm,
+    body :: ToolBody
   }
+  deriving stock (Eq, Show)
+
+-- | The body of a tool, as far as the program gives it. Above the tip the tool has its radius up to
+-- the holder. Lengths are measured from the tip.
+data ToolBody = ToolBody
+  { -- | the length of the cutting edges
+    fluteLength :: Maybe Mm,
+    -- | the length up to the holder
+    stickOut :: Maybe Mm,
+    -- | the cylinders of the holder, from below. The highest one has no end
+    holder :: [HolderCylinder]
+  }
+  deriving stock (Eq, Show)
+
+-- | A body of which the program gives nothing.
+plainBody :: ToolBody
+plainBody = ToolBody Nothing Nothing []
+
+-- | A cylinder of a holder, and the height of its lower end above the tip of the tool.
+data HolderCylinder = HolderCylinder {holderRadius :: Mm, aboveTip :: Mm}
+  deriving stock (Eq, Show)
+
+-- | The points over a region of the plane between two heights. The contours have the region on
+-- their left.
+data Solid = Solid {outlines :: [Contour], lowest :: Mm, highest :: Mm}
   deriving stock (Eq, Show)
 
 -- | The kind of a tool.

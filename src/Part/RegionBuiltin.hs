@@ -5,6 +5,7 @@
 -- and yields 'Nothing' for all other functions and arguments.
 module Part.RegionBuiltin
   ( apply,
+    regionOf,
   )
 where
 

@@ -2,6 +2,7 @@
 -- cutters, heights and distances.
 module Part.Transformation
   ( operation,
+    solid,
   )
 where
 
@@ -11,13 +12,25 @@ import Geometry.Transformation (Transformation)
 import Geometry.Transformation qualified as Transformation
 import Part.Part
 
+-- | The image of a solid under the transformation @s@, which does not change its heights.
+solid :: Transformation -> Solid -> Solid
+solid s body' = body' {outlines = map (onLeft . image s) (outlines body')}
+  where
+    onLeft c = if Transformation.mirrors s then reversedContour c else c
+
+-- | The image of a contour. It is no longer the contour that the program writes.
+image :: Transformation -> Contour -> Contour
+image s c = c {elements = fmap moved (elements c), writtenElements = []}
+  where
+    moved e = e {segment = Transformation.segment s (segment e)}
+
 -- | The image of the operation @o@ under the transformation @s@. If @s@ mirrors, left and right are
 -- swapped.
 operation :: Transformation -> Operation -> Operation
 operation s o = case o of
   Mill (Located at m) -> Mill (Located at (milling m))
   Pocket (Located at p) ->
-    Pocket (Located at p {wall = milling (wall p), islands = map image (islands p)})
+    Pocket (Located at p {wall = milling (wall p), islands = map (image s) (islands p)})
   Drill (Located at d) ->
     Drill (Located at d {holes = fmap (fmap (Transformation.point s)) (holes d)})
   Travel stops -> Travel (NonEmpty.map stop stops)
@@ -25,14 +38,12 @@ operation s o = case o of
   where
     milling m =
       m
-        { contour = image (contour m),
+        { contour = image s (contour m),
           side = fmap mirrored (side m),
           approach = map stop (approach m),
           retract = map stop (retract m)
         }
     stop p = p {place = fmap (Transformation.point s) (place p)}
-    image c = c {elements = fmap moved (elements c), writtenElements = []}
-    moved e = e {segment = Transformation.segment s (segment e)}
     mirrored side'
       | Transformation.mirrors s = case side' of
         LeftSide -> RightSide

@@ -61,11 +61,26 @@ statements =
       "language.md#tolerance"
       [("tolerance", "Gives the permitted chord error.")]
     <> under
+      "language.md#stock"
+      [("stock", "Gives the region and the heights of the stock.")]
+    <> under
+      "language.md#clamps"
+      [("avoid", "Gives a region in which no tool may be, such as that of a clamp.")]
+    <> under
+      "language.md#the-body-of-a-tool"
+      [ ("flutes", "Gives the length of the cutting edges of a tool."),
+        ("stickout", "Gives the length of a tool from its tip to the holder."),
+        ("holder", "Gives the diameter of a cylinder of the holder.")
+      ]
+    <> under
       "language.md#tools-for-surfaces-that-lean"
       [ ("cone", "Is a conical mill: the diameter of its tip, its bevel, and the contact height."),
         ("blade", "Is a swivelling blade: its diameter, and that of the wheel that swivels it."),
         ("gear", "Gives the diameter of the wheel that swivels a blade."),
-        ("height", "Gives the height above the tip at which a cone touches the contour.")
+        ( "height",
+          "Gives the height above the tip at which a cone touches the contour, or that of a \
+          \cylinder of the holder."
+        )
       ]
     <> under
       "language.md#blocks"

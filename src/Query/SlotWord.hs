@@ -60,6 +60,8 @@ entries keyword = case keyword of
   "work" -> own [AtWord [GrammarWord n n | n <- ["54", "55", "56", "57", "58", "59"]]] []
   "program" -> own (value Type.number) []
   "safe" -> own (value Type.len) []
+  "stock" -> body
+  "avoid" -> body
   "let" -> [(keyword, ([], [])), ("=", (anything, []))]
   "param" -> [(keyword, ([], [])), ("=", (anything, []))]
   "curve" -> [(keyword, ([], [])), ("=", (value (Curve (Variable 0)), []))]
@@ -81,6 +83,9 @@ entries keyword = case keyword of
   _ -> commandEntries keyword
   where
     own follows after = [(keyword, (follows, after))]
+    body =
+      own (value Contour) (words' ["from"])
+        <> [("from", (value Type.len, words' ["to"])), ("to", (value Type.len, []))]
     onContour after = own (value Contour) after <> [(s, ([], [])) | s <- sides]
 
 -- | The entries of moves and commands.
@@ -195,6 +200,8 @@ afterElement =
 -- | The words in the parentheses of a cutter of this kind, in order.
 cutterWords :: Text -> [Text]
 cutterWords kind = case kind of
+  "mill" -> ["diameter", "flutes", "stickout", "holder"]
+  "drill" -> ["diameter", "flutes", "stickout", "holder"]
   "turn" -> ["nose", "tip"]
   "cone" -> ["diameter", "bevel", "height"]
   "blade" -> ["diameter", "gear"]

@@ -31,6 +31,8 @@ statements =
     ("work", "work ${1:54}"),
     ("program", "program ${1:1}"),
     ("safe", "safe ${1:40 mm}"),
+    ("stock", "stock ${1:region} from ${2:-20 mm} to ${3:0 mm}"),
+    ("avoid", "avoid ${1:region} from ${2:0 mm} to ${3:12 mm}"),
     ("let", "let ${1:name} = $0"),
     ("param", "param ${1:name} = $0"),
     ("contour", "contour ${1:name} closed {\n  $0\n}"),
@@ -87,7 +89,8 @@ cutters =
 
 -- | The keywords of the statements that a program has at most once.
 onceOnly :: [Text]
-onceOnly = ["part", "units", "machine", "tool", "tolerance", "from", "work", "program", "safe"]
+onceOnly =
+  ["part", "units", "machine", "tool", "tolerance", "from", "work", "program", "safe", "stock"]
 
 -- | The snippet for a program with this unit of lengths: sizes and feeds that are usual in it.
 inUnit :: LengthUnit -> Text -> Text

@@ -124,6 +124,8 @@ symbol source (Located whole s) = case s of
   WorkOffset _ -> Nothing
   ProgramNumber _ -> Nothing
   SafeHeight _ -> Nothing
+  Stock _ _ -> Nothing
+  Avoid _ _ -> Nothing
   Assert _ _ -> Nothing
   Spindle _ -> Nothing
   Coolant _ -> Nothing

@@ -124,7 +124,7 @@ settings sheet@Sheet {general = g, approach} =
           (measured Millimetre (diameter g))
           (measured Degree (bevel g))
           (measured Millimetre (height g))
-      | otherwise = Surface.MillCutter (measured Millimetre (diameter g))
+      | otherwise = Surface.MillCutter (measured Millimetre (diameter g)) []
 
 -- | The paragraphs of an array: one for each piece, one for the contour, one for the milling
 -- statement.

@@ -82,6 +82,8 @@ statementForms =
     ("work", WorkOffset <$> onSameLine "the number of a work offset" expr),
     ("program", ProgramNumber <$> onSameLine "the number of the program" expr),
     ("safe", SafeHeight <$> onSameLine "a height" expr),
+    ("stock", Stock <$> onSameLine "a region" expr <*> heights),
+    ("avoid", Avoid <$> onSameLine "a region" expr <*> heights),
     ("let", definition),
     ("param", Param <$> name <* symbol "=" <*> expr),
     ("contour", contour),
@@ -147,6 +149,12 @@ firstTool = onSameLine "a cutter" $ do
   where
     numbered first = Tool . Just <$> first <*> onSameLine "a cutter" cutter
 
+-- | The heights of the bottom and of the top of a body after its region: @from -20 to 0@.
+heights :: Parser (Maybe (Expr, Expr))
+heights =
+  Parsec.optional . onThisLine $
+    (,) <$> (keyword "from" *> expr) <*> (keyword "to" *> expr)
+
 -- | A cutter: @mill(diameter 20 mm)@, @drill(…)@, @turn(…)@, @cone(…)@, @blade(…)@.
 cutter :: Parser Cutter
 cutter =
@@ -166,7 +174,12 @@ cutter =
               *> parens (BladeCutter <$> measured "diameter" <*> further "gear" bladeForm)
           )
   where
-    one kind measure make = keyword kind *> parens (make <$> measured measure)
+    one kind measure make =
+      keyword kind *> parens (make <$> measured measure <*> zeroOrMore (symbol "," *> located size))
+    size =
+      (Flutes <$> measured "flutes")
+        <|> (StickOut <$> measured "stickout")
+        <|> (HolderCylinder <$> measured "holder" <*> Parsec.optional (measured "height"))
     measured measure = keyword measure *> expr
     tip = symbol "," *> measured "tip"
     further measure form = (symbol "," <?> form) *> measured measure

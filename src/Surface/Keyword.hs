@@ -30,7 +30,8 @@ statements =
 -- | The words that begin a statement at the start of a line and are names elsewhere, as in
 -- @contour pocket closed@. Some of them are whole statements, some need a word after them.
 softStatements :: [Text]
-softStatements = ["pocket", "units", "work", "program", "safe", "stop", "optional", "dwell"]
+softStatements =
+  ["pocket", "units", "work", "program", "safe", "stock", "avoid", "stop", "optional", "dwell"]
 
 -- | The keywords that begin a repetition or a choice, either of statements or of items of a
 -- contour.

@@ -108,6 +108,8 @@ statement comments indent (Located _ s) = case s of
   WorkOffset e -> worded "work" (value e)
   ProgramNumber e -> worded "program" (value e)
   SafeHeight e -> worded "safe" (value e)
+  Stock e zs -> worded "stock" (spaced (value e : heights comments zs))
+  Avoid e zs -> worded "avoid" (spaced (value e : heights comments zs))
   LetValue (Located _ (Name name)) e -> defined ("let " <> name) e
   LetFunction (Located _ (Name name)) parameters e ->
     defined ("let " <> name <> "(" <> names parameters <> ")") e
@@ -300,8 +302,8 @@ machineRef ref = case ref of
 
 cutter :: CommentPositions -> Cutter -> Doc
 cutter comments (Located _ c) = case c of
-  MillCutter e -> made "mill(diameter " e
-  DrillCutter e -> made "drill(diameter " e
+  MillCutter e sizes -> made "mill(diameter " e sizes
+  DrillCutter e sizes -> made "drill(diameter " e sizes
   TurningCutter e tip ->
     let direction = concat [[Text ", tip ", value n] | Just n <- [tip]]
      in Beside ([Text "turn(nose ", value e] <> direction <> [Text ")"])
@@ -317,7 +319,20 @@ cutter comments (Located _ c) = case c of
       ]
   BladeCutter d g -> Beside [Text "blade(diameter ", value d, Text ", gear ", value g, Text ")"]
   where
-    made before e = Beside [Text before, value e, Text ")"]
+    made before e sizes =
+      Beside ([Text before, value e] <> concatMap (size . Region.value) sizes <> [Text ")"])
+    size s = case s of
+      Flutes e -> [Text ", flutes ", value e]
+      StickOut e -> [Text ", stickout ", value e]
+      HolderCylinder d h ->
+        [Text ", holder ", value d] <> concat [[Text " height ", value e] | Just e <- [h]]
+    value = PrintExpression.value comments
+
+-- | The documents of the heights of a body, after its region.
+heights :: CommentPositions -> Maybe (Expr, Expr) -> [Doc]
+heights comments zs =
+  concat [[Text "from", value a, Text "to", value b] | Just (a, b) <- [zs]]
+  where
     value = PrintExpression.value comments
 
 accuracy :: CommentPositions -> Accuracy -> Doc

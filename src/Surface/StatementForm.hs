@@ -58,7 +58,11 @@ formHint isStart around = case reverse onLine of
 -- | Examples of cutters by their kind.
 cutterForms :: [(Text, Text)]
 cutterForms =
-  [ ("cone", "cone(diameter 20 mm, bevel 5 deg, height 30 mm)"),
+  [ ( "mill",
+      "mill(diameter 6 mm), or mill(diameter 6 mm, flutes 18 mm, stickout 30 mm, holder 40 mm)"
+    ),
+    ("drill", "drill(diameter 5 mm), or drill(diameter 5 mm, flutes 40 mm)"),
+    ("cone", "cone(diameter 20 mm, bevel 5 deg, height 30 mm)"),
     ("blade", "blade(diameter 20 mm, gear 70 mm)"),
     ("turn", "turn(nose 0.8 mm), or turn(nose 0.8 mm, tip 2)")
   ]
@@ -118,6 +122,8 @@ statementForms =
     ("work", "work 54"),
     ("program", "program 1234"),
     ("safe", "safe 40 mm"),
+    ("stock", "stock blank from -20 to 0"),
+    ("avoid", "avoid clamp from 0 to 12"),
     ("let", "let a = 5 mm, or for a function let f(x) = 2 * x"),
     ("param", "param a = 5 mm"),
     ("contour", "contour edge closed { … }, or open instead of closed"),

@@ -16,6 +16,8 @@ module Surface.Syntax
     Statement_ (..),
     Cutter,
     Cutter_ (..),
+    BodySize,
+    BodySize_ (..),
     Accuracy (..),
     DefaultPace (..),
     Spin (..),
@@ -105,6 +107,10 @@ data Statement_
     ProgramNumber Expr
   | -- | @safe 40 mm@: the safe height
     SafeHeight Expr
+  | -- | @stock blank from -20 to 0@: the region, the heights of its bottom and of its top
+    Stock Expr (Maybe (Expr, Expr))
+  | -- | @avoid clamp from 0 to 12@: the region, the heights of its bottom and of its top
+    Avoid Expr (Maybe (Expr, Expr))
   | -- | @let r = 9@
     LetValue (Located Name) Expr
   | -- | @let lug(a) = …@
@@ -166,10 +172,10 @@ type Cutter = Located Cutter_
 
 -- | A cutter as written.
 data Cutter_
-  = -- | @mill(diameter d)@
-    MillCutter Expr
-  | -- | @drill(diameter d)@
-    DrillCutter Expr
+  = -- | @mill(diameter d)@ and @mill(diameter d, flutes f, stickout s, holder h)@
+    MillCutter Expr [BodySize]
+  | -- | @drill(diameter d)@, with the same sizes
+    DrillCutter Expr [BodySize]
   | -- | @turn(nose r)@ and @turn(nose r, tip n)@: the radius of the nose, the direction of its tip
     TurningCutter Expr (Maybe Expr)
   | -- | @cone(diameter d, bevel a, height h)@: a conical mill. The arguments are the diameter of
@@ -178,6 +184,19 @@ data Cutter_
   | -- | @blade(diameter d, gear e)@: a swivelling blade. The arguments are the diameter of the
     -- blade and the diameter of the gear wheel that swivels the blade.
     BladeCutter Expr Expr
+  deriving stock (Eq, Show)
+
+-- | A size of the body of a tool as the program writes it, with its region.
+type BodySize = Located BodySize_
+
+-- | A size of the body of a tool as written.
+data BodySize_
+  = -- | @flutes f@: the length of the cutting edges, from the tip
+    Flutes Expr
+  | -- | @stickout s@: the length from the tip to the holder
+    StickOut Expr
+  | -- | @holder d@ and @holder d height h@: the diameter of a cylinder of the holder, its height
+    HolderCylinder Expr (Maybe Expr)
   deriving stock (Eq, Show)
 
 -- | The allowed distance between a curve and its chords.

@@ -91,6 +91,8 @@ ofStatement (Located _ s) = case s of
   WorkOffset e -> [e]
   ProgramNumber e -> [e]
   SafeHeight e -> [e]
+  Stock e zs -> e : ofHeights zs
+  Avoid e zs -> e : ofHeights zs
   LetValue _ e -> [e]
   LetFunction _ _ e -> [e]
   Param _ e -> [e]
@@ -188,11 +190,20 @@ ofArgument a = case a of
 
 ofCutter :: Cutter -> [Expr]
 ofCutter (Located _ c) = case c of
-  MillCutter e -> [e]
-  DrillCutter e -> [e]
+  MillCutter e sizes -> e : concatMap ofBodySize sizes
+  DrillCutter e sizes -> e : concatMap ofBodySize sizes
   TurningCutter e tip -> e : maybeToList tip
   ConeCutter a b d -> [a, b, d]
   BladeCutter a b -> [a, b]
+
+ofBodySize :: BodySize -> [Expr]
+ofBodySize (Located _ s) = case s of
+  Flutes e -> [e]
+  StickOut e -> [e]
+  HolderCylinder d h -> d : maybeToList h
+
+ofHeights :: Maybe (Expr, Expr) -> [Expr]
+ofHeights = maybe [] (\(a, b) -> [a, b])
 
 ofItem :: Item -> [Expr]
 ofItem (Located _ i) = case i of

@@ -9,6 +9,7 @@ where
 import Base.Decimal qualified as Decimal
 import Base.NumberTable qualified as NumberTable
 import Base.Region (Located (Located), Region (..))
+import Data.Bifunctor (bimap)
 import Data.List.NonEmpty qualified as NonEmpty
 import Surface.Syntax hiding (statements)
 
@@ -42,6 +43,8 @@ statement s = case s of
   WorkOffset e -> WorkOffset (expr e)
   ProgramNumber e -> ProgramNumber (expr e)
   SafeHeight e -> SafeHeight (expr e)
+  Stock e zs -> Stock (expr e) (fmap (bimap expr expr) zs)
+  Avoid e zs -> Avoid (expr e) (fmap (bimap expr expr) zs)
   LetValue name e -> LetValue (here name) (expr e)
   LetFunction name parameters e -> LetFunction (here name) (fmap here parameters) (expr e)
   Param name e -> Param (here name) (expr e)
@@ -113,11 +116,17 @@ joggle (Joggle from to depth radius) = Joggle (expr from) (expr to) (expr depth)
 
 cutter :: Cutter_ -> Cutter_
 cutter c = case c of
-  MillCutter e -> MillCutter (expr e)
-  DrillCutter e -> DrillCutter (expr e)
+  MillCutter e sizes -> MillCutter (expr e) (map (unlocated bodySize) sizes)
+  DrillCutter e sizes -> DrillCutter (expr e) (map (unlocated bodySize) sizes)
   TurningCutter e tip -> TurningCutter (expr e) (fmap expr tip)
   ConeCutter d a h -> ConeCutter (expr d) (expr a) (expr h)
   BladeCutter d g -> BladeCutter (expr d) (expr g)
+
+bodySize :: BodySize_ -> BodySize_
+bodySize s = case s of
+  Flutes e -> Flutes (expr e)
+  StickOut e -> StickOut (expr e)
+  HolderCylinder d h -> HolderCylinder (expr d) (fmap expr h)
 
 -- | An expression in which all regions are replaced by the region @at@.
 expressionAt :: Region -> Expr -> Expr

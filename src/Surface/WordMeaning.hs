@@ -120,6 +120,8 @@ statementMeant word = lookup (Text.toLower word) table
               ("from", "start origin home startpoint start_point begin"),
               ("clearance", "clearance_height retract_height"),
               ("safe", "safez safe_z safeheight safe_height"),
+              ("stock", "blank workpiece raw billet"),
+              ("avoid", "keepout keep_out clamp forbid obstacle fixture"),
               ("work", "work_offset workoffset wcs offset"),
               ("stop", "halt pause hold m0 m00"),
               ("optional stop", "m1 m01 optional_stop opstop"),

@@ -43,6 +43,7 @@ import Toolpath.FeedRate qualified as FeedRate
 import Toolpath.Intrusion qualified as Intrusion
 import Toolpath.LinkingMove qualified as LinkingMove
 import Toolpath.MillingSide (keyword, leadingSide, oriented, possible)
+import Toolpath.MoveOver qualified as MoveOver
 import Toolpath.OffsetPath qualified as OffsetPath
 import Toolpath.PocketMove qualified as PocketMove
 import Toolpath.RestMaterial (Remaining (Remaining, positions, tool, word))
@@ -65,7 +66,9 @@ toToolpath part = case (Part.start part, Part.operations part) of
   (Just begin, operations) ->
     case collect (firstState part (value begin)) (FeedRate.withRates operations) of
       ([], blocks) ->
-        let path = Toolpath begin blocks (turns part) (setupOf part) (Part.unit part)
+        let setup = setupOf part
+            over = MoveOver.overSolids (Part.avoided part) (Toolpath.withTools setup blocks)
+            path = Toolpath begin over (turns part) setup (Part.unit part)
             errors = Intrusion.intrusions path
          in Result
               (restWarnings path <> (if null errors then Warning.warnings path else []))
@@ -85,7 +88,9 @@ setupOf part =
       Toolpath.firstToolNumber = Part.firstToolNumber part,
       Toolpath.workOffset = Part.workOffset part,
       Toolpath.programNumber = Part.programNumber part,
-      Toolpath.safeHeight = Part.safeHeight part
+      Toolpath.safeHeight = Part.safeHeight part,
+      Toolpath.stock = Part.stock part,
+      Toolpath.avoided = Part.avoided part
     }
 
 -- | True if the part is turned on a lathe: a statement turns, or there is a turning tool.

@@ -16,6 +16,7 @@ module Toolpath.Toolpath
     atHeights,
     moves,
     passNumbers,
+    withTools,
     curveRuns,
     isCurve,
     isFlat,
@@ -36,7 +37,7 @@ import Geometry.Carrier (Side)
 import Geometry.Segment (Segment)
 import Geometry.Segment qualified as Segment
 import Offset.Equidistant qualified as Equidistant
-import Part.Part (Command, Cutter, Drilling, Milling, Pace, Pocketing, SpacePoint (..), Stop)
+import Part.Part (Command, Cutter, Drilling, Milling, Pace, Pocketing, Solid, SpacePoint (..), Stop)
 import Part.Part qualified as Part
 
 -- | The cutter's starting position, and the blocks in the order of execution.
@@ -66,13 +67,17 @@ data Setup = Setup
     -- | number of the program, from 1 to 9999
     programNumber :: Maybe (Located Int),
     -- | height above all clamps, in mm, at least every clearance height
-    safeHeight :: Maybe (Located Mm)
+    safeHeight :: Maybe (Located Mm),
+    -- | stock before the first operation, with the region of its statement
+    stock :: Maybe (Located Solid),
+    -- | solids that no tool may touch, each with the region of its statement
+    avoided :: [Located Solid]
   }
   deriving stock (Eq, Show)
 
 -- | The setup of a program without settings.
 noSetup :: Setup
-noSetup = Setup Nothing "" Nothing Nothing Nothing Nothing Nothing
+noSetup = Setup Nothing "" Nothing Nothing Nothing Nothing Nothing Nothing []
 
 -- | The moves of one statement, or of one of its passes.
 data Block
@@ -219,6 +224,16 @@ passNumbers = go 0
       Travelling {} -> False
       Holing _ _ -> False
       Commanding _ -> False
+
+-- | The blocks of a toolpath, each with the tool in the spindle. It is Nothing before the first tool
+-- change of a program without a first tool.
+withTools :: Setup -> [Block] -> [(Maybe Cutter, Block)]
+withTools setup' = go (firstCutter setup')
+  where
+    go cutter bs = case bs of
+      [] -> []
+      b@(Commanding (Located _ (Part.ChangeTool _ c))) : more -> (cutter, b) : go (Just c) more
+      b : more -> (cutter, b) : go cutter more
 
 -- | Groups consecutive moves along one curve of the contour. In each group, all moves except the
 -- first continue the previous move. A move along a single line or arc is a group of its own.

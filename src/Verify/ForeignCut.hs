@@ -2,6 +2,7 @@
 -- than the planned frames cut. Planned frames are those that the compiler made for the program.
 module Verify.ForeignCut
   ( foreignCuts,
+    largestTolerance,
   )
 where
 

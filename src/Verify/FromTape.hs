@@ -50,6 +50,7 @@ import Part.Part (SpacePoint (..))
 import Part.Part qualified as Part
 import Toolpath.Toolpath (Toolpath)
 import Toolpath.Toolpath qualified as Toolpath
+import Verify.Collision qualified as Collision
 import Verify.ContourFeed qualified as ContourFeed
 import Verify.Deviation (MillingPass (..))
 import Verify.Deviation qualified as Deviation
@@ -223,6 +224,7 @@ otherFindings subject@ProofSubject {machine, path, program, frames} passes =
     <> [OffPlane n | Subject.isFlat subject, Just n <- [TapeSummary.firstRisen (summary subject)]]
     <> HoleCheck.missingHoles machine path (motions subject)
     <> take 1 foreign'
+    <> Collision.collisions subject (Subject.toolIn subject passes)
     <> feedFindings subject passes
     <> Feed.tooFast machine begin frames
     <> commandFindings subject (\_ _ -> True)

@@ -19,7 +19,7 @@ import Base.Region qualified as Region
 import Control.Motion (Motion)
 import Control.Motion qualified as Control
 import Data.IntSet qualified as IntSet
-import Data.List (find, foldl', mapAccumL, zip4)
+import Data.List (find, foldl', mapAccumL, zipWith5)
 import Data.List.NonEmpty (NonEmpty)
 import Data.List.NonEmpty qualified as NonEmpty
 import Data.Maybe (fromMaybe, isJust, isNothing)
@@ -32,7 +32,9 @@ import Geometry.Vec (Point, Vec)
 import Geometry.Vec qualified as Vec
 import Machine.Machine (Machine)
 import Machine.Machine qualified as Machine
-import Part.Part (Drilling, Milling, Pace, SpacePoint (..))
+import Part.AvoidedSolid (AvoidedSolid)
+import Part.AvoidedSolid qualified as AvoidedSolid
+import Part.Part (Cutter, Drilling, Milling, Pace, SpacePoint (..))
 import Part.Part qualified as Part
 import Toolpath.Toolpath (Block, Move, Sent, Toolpath)
 import Toolpath.Toolpath qualified as Toolpath
@@ -88,27 +90,33 @@ data RequiredItem
 -- used. The moves for a control that compensates come from the toolpath.
 itemsOf :: Machine -> Bool -> [MotionGroup] -> [Pocket] -> Toolpath -> [RequiredItem]
 itemsOf machine isFlat alongContours pockets toolpath =
-  concat (snd (mapAccumL (itemsOfBlock machine isFlat) (alongContours, clearings) visits))
+  concat (snd (mapAccumL (itemsOfBlock machine isFlat solids) (alongContours, clearings) visits))
   where
+    solids = map (AvoidedSolid.prepared . value) (Toolpath.avoided (Toolpath.setup toolpath))
+    tools = map fst (Toolpath.withTools (Toolpath.setup toolpath) blocks)
     clearings = [(pocket, p) | pocket <- pockets, p <- NonEmpty.toList (Pocket.passes pocket)]
-    visits = zip4 (beginnings toolpath) (Nothing : map Just blocks) blocks following
+    visits =
+      zipWith5 BlockVisit (beginnings toolpath) tools (Nothing : map Just blocks) blocks following
     following = map Just (drop 1 blocks) <> [Nothing]
     blocks = Toolpath.blocks toolpath
 
--- | Position of the cutter before a block, the block before it, the block, and the one after it.
-type BlockVisit = (SpacePoint, Maybe Block, Block, Maybe Block)
+-- | Position of the cutter before a block, the tool, the block before it, the block, and the one
+-- after it.
+data BlockVisit = BlockVisit SpacePoint (Maybe Cutter) (Maybe Block) Block (Maybe Block)
 
 -- | Items of a block. The state has the groups along contours and the clearings of this block and
 -- of the later ones.
 itemsOfBlock ::
   Machine ->
   Bool ->
+  [AvoidedSolid] ->
   ([MotionGroup], [(Pocket, ClearingPass)]) ->
   BlockVisit ->
   (([MotionGroup], [(Pocket, ClearingPass)]), [RequiredItem])
-itemsOfBlock machine isFlat left@(along, clearing) visit@(begin, _, block, _) = case block of
+itemsOfBlock machine isFlat solids left@(along, clearing) visit = case block of
   Toolpath.Travelling _ stops _ -> (left, links pulse (RequiredLink.stopMoves begin stops))
-  Toolpath.Holing drilling _ -> (left, map Single (holeMoves pulse begin drilling))
+  Toolpath.Holing drilling _ ->
+    (left, map Single (concatMap (overHoles drilling) (holeMoves pulse begin drilling)))
   Toolpath.Commanding _ -> (left, [])
   Toolpath.Cutting {Toolpath.job, Toolpath.sent = Just s} ->
     ((drop 1 along, clearing), singles (slackOf machine (value job)) (edgeMoves s))
@@ -128,14 +136,41 @@ itemsOfBlock machine isFlat left@(along, clearing) visit@(begin, _, block, _) = 
             milling
             (placeOf visit region 6 milling pass)
             cleared
-            (map (Several . uncurry (inPocket machine isFlat)) (take 1 clearing))
+            (map (Several . uncurry (inPocket machine isFlat solids)) (take 1 clearing))
         )
   where
+    BlockVisit begin cutter _ block _ = visit
     pulse = Machine.planeResolution machine
     around milling place cut group =
-      links (slackOf machine milling) (RequiredLink.before place begin (beginOf milling cut))
+      linksOf milling (RequiredLink.before place begin (beginOf milling cut))
         <> group
-        <> links (slackOf machine milling) (RequiredLink.behind place (finishOf milling cut))
+        <> linksOf milling (RequiredLink.behind place (finishOf milling cut))
+    linksOf milling = links (slackOf machine milling) . concatMap (overLinks milling)
+    overLinks milling link@(RequiredLink s zs pace region)
+      | pace == Part.Rapid,
+        Just clear <- Part.clearance milling =
+        [RequiredLink s' zs' pace region | (s', zs') <- ways clear (s, zs)]
+      | otherwise = [link]
+    overHoles (Located _ drilling) move
+      | pace move == Part.Rapid =
+        [ move {path = s, between = zs}
+          | (s, zs) <- ways (Part.travelHeight drilling) (path move, between move)
+        ]
+      | otherwise = [move]
+    ways clear = maybe pure (overSolids solids clear) cutter
+
+-- | Way of a rapid linking move, in the plane and in its heights: over the solids that the program
+-- avoids, straight up before and straight down after them, or as it is.
+overSolids :: [AvoidedSolid] -> Mm -> Cutter -> (Segment, (Mm, Mm)) -> [(Segment, (Mm, Mm))]
+overSolids solids clear cutter way@(s, (from, to)) = case s of
+  Straight p q
+    | p /= q,
+      Just h <- AvoidedSolid.heightOver clear solids cutter s (min from to) ->
+      let high = max h from
+       in [(Straight p p, (from, high)) | from /= high]
+            <> [(s, (high, high))]
+            <> [(Straight q q, (high, to)) | high /= to]
+  _ -> [way]
 
 -- | Milling of a pocket's wall, with another stop of the approach at the clearance height, if the
 -- block @block@ has it: if a wall lies between the position where the cutter would plunge and the
@@ -165,7 +200,7 @@ overWall region block first milling = case Part.clearance milling of
 -- | Place of the block of a visit in its statement. @letters@ is the length of the statement's
 -- first word.
 placeOf :: BlockVisit -> Region -> Int -> Milling -> Toolpath.Pass -> Place
-placeOf (_, previous, _, next) region letters milling pass =
+placeOf (BlockVisit _ _ previous _ next) region letters milling pass =
   Place
     { RequiredLink.milling,
       RequiredLink.word = region {Region.end = Region.start region + letters},
@@ -323,12 +358,12 @@ atLevels machine isFlat toolpath =
         (from, to) = Control.height machine m
 
 -- | Group of the motions in one pass of a pocket: those at the height of the pass, and the linking
--- moves over walls and islands. A linking move rises to the clearance height, goes there to another
--- position in the pocket, and plunges. It stays in the bounding box of the pocket. Without heights,
+-- moves over walls and islands. A linking move rises to the clearance height, or higher over solids
+-- that the program avoids, goes there to another position in the pocket, and plunges. It stays in the bounding box of the pocket. Without heights,
 -- only the allowance of a pass shows where it ends: a motion into the allowance belongs to the next
 -- pass.
-inPocket :: Machine -> Bool -> Pocket -> ClearingPass -> MotionGroup
-inPocket machine isFlat pocket pass =
+inPocket :: Machine -> Bool -> [AvoidedSolid] -> Pocket -> ClearingPass -> MotionGroup
+inPocket machine isFlat solids pocket pass =
   MotionGroup
     { includes,
       latestBegin = maxBound,
@@ -343,11 +378,11 @@ inPocket machine isFlat pocket pass =
     pulse = Machine.resolutionOf machine Machine.Z
     plungeFeed = Part.At (fromMaybe (Part.feed milling) (Part.plunge milling))
     includes m
-      | isVertical = isInside && any isBetween clear && hasPace verticalPace
+      | isVertical = isInside && maybe False isBetween clear && hasPace verticalPace
       | isFlat = isInside && not isRapid && (Pocket.isFinal pass || leavesAllowance s)
       | isAt level from && isAt level to = isInside && not isRapid
       | otherwise =
-        any (\z -> isAt z from && isAt z to) clear
+        maybe False (\z -> isAt z from && isAt z to || isOverSolid z) clear
           && hasPace Part.Rapid
           && all isOver [Segment.start s, Segment.end s]
       where
@@ -355,8 +390,10 @@ inPocket machine isFlat pocket pass =
         (from, to) = Control.height machine m
         isVertical = Segment.start s == Segment.end s && not (Control.isRound (Control.frame m))
         isInside = Pocket.contains pocket (Segment.at 0.5 s)
-        isBetween z = minus level pulse <= min from to && max from to <= plus z pulse
-        verticalPace = if from < to then Part.Rapid else plungeFeed
+        isBetween z =
+          minus level pulse <= min from to && (max from to <= plus z pulse || not (null solids))
+        isOverSolid z = not (null solids) && from == to && from >= minus z pulse
+        verticalPace = if from < to || any (to >=) clear then Part.Rapid else plungeFeed
         isRapid = hasPace Part.Rapid && not (hasPace (Part.At (Part.feed milling)))
         hasPace pace = isNothing (Feed.atPace machine pace False (Pocket.statement pocket) m)
     isOver q = BoundingBox.distance q (Pocket.bounds pocket) <= pulse

@@ -5,6 +5,8 @@ module Verify.SpindleTool
     plannedTools,
     toolInFrame,
     toolsByCommands,
+    plannedIndices,
+    indicesByCommands,
     Use,
     useOf,
     supposedTool,
@@ -17,7 +19,7 @@ import Data.List (foldl', nub)
 import Data.Maybe (catMaybes, fromMaybe, listToMaybe)
 import Data.Vector.Unboxed (Vector)
 import Data.Vector.Unboxed qualified as Vector
-import Frame.Frame (Frame, FrameProgram)
+import Frame.Frame (Frame, FrameProgram, PlannedFrame)
 import Frame.Frame qualified as Frame
 import Verify.Motion (CutterMotion (number))
 
@@ -40,22 +42,42 @@ plannedTools program = Vector.init (Vector.scanr' (\r next -> if r < 0 then next
 toolInFrame :: Tools -> Int -> Mm
 toolInFrame tools n = maybe (Mm 0) Mm (tools Vector.!? (n - 1))
 
+-- | Index of the tool in each planned frame ('Frame.toolIndex'). A frame of commands has the tool
+-- of the next motion.
+plannedIndices :: FrameProgram -> Vector Int
+plannedIndices program =
+  Vector.init (Vector.scanr' (\t next -> if t < 0 then next else t) 0 (Vector.fromList indices))
+  where
+    indices =
+      [ if Frame.isMoving (Frame.frame p) then Frame.toolIndex p else -1
+        | p <- Frame.plannedFrames program
+      ]
+
 -- | Radius of the cutter in each frame of a tape, by the number of the frame from 1. The first
 -- frame with commands corresponds to the first such planned frame, the second to the second, and so
 -- on. From one such frame to the next, the cutter stays the same. Where the program plans no
 -- motion, it is the cutter of the motions before. Nothing if the cutter in the planned frames
 -- changes elsewhere.
 toolsByCommands :: FrameProgram -> [Frame] -> Maybe (Int -> Mm)
-toolsByCommands program frames = do
-  radii <- traverse (onlyRadius . filter (Frame.isMoving . Frame.frame)) plannedSections
-  let kept = drop 1 (scanl fromMaybe (firstOf radii) radii)
+toolsByCommands = byCommands (Mm 0) Frame.cutterRadius
+
+-- | Index of the tool in each frame of a tape, found as 'toolsByCommands' finds the radius.
+indicesByCommands :: FrameProgram -> [Frame] -> Maybe (Int -> Int)
+indicesByCommands = byCommands 0 Frame.toolIndex
+
+-- | Property of the tool in each frame of a tape, by the number of the frame from 1. @without@ is
+-- the property if there is no tool, and @ofPlanned@ gives that of a planned frame.
+byCommands :: Eq a => a -> (PlannedFrame -> a) -> FrameProgram -> [Frame] -> Maybe (Int -> a)
+byCommands without ofPlanned program frames = do
+  found <- traverse (only . filter (Frame.isMoving . Frame.frame)) plannedSections
+  let kept = drop 1 (scanl fromMaybe (firstOf found) found)
       begins = IntMap.fromList (zip (1 : numbersOf frames) (kept <> repeat (last kept)))
-  Just (\n -> maybe (Mm 0) snd (IntMap.lookupLE n begins))
+  Just (\n -> maybe without snd (IntMap.lookupLE n begins))
   where
-    firstOf radii = fromMaybe (Mm 0) (listToMaybe (catMaybes radii))
+    firstOf found = fromMaybe without (listToMaybe (catMaybes found))
     planned = Frame.plannedFrames program
     plannedSections = divided (numbersOf (map Frame.frame planned)) planned
-    onlyRadius section = case nub (map Frame.cutterRadius section) of
+    only section = case nub (map ofPlanned section) of
       [] -> Just Nothing
       [r] -> Just (Just r)
       _ -> Nothing

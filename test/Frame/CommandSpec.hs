@@ -191,7 +191,7 @@ spec = do
     c = Left
     go = Right (1 :: Double)
     stay = Right 0
-    tool n = ChangeTool n (Part.Cutter MillingCutter (Mm 1) Nothing Nothing)
+    tool n = ChangeTool n (Part.Cutter MillingCutter (Mm 1) Nothing Nothing (Mm 1) Part.plainBody)
     kontur = Machines.named "kontur-3p"
     iso = Machines.named "iso6983"
 

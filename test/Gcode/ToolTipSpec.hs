@@ -44,7 +44,7 @@ import Machine.Machine
     ProgramForm,
   )
 import Machine.Machine qualified as Machine
-import Part.Part (Cutter (..), CutterKind (..), Sense (..))
+import Part.Part (Cutter (..), CutterKind (..), Sense (..), plainBody)
 import System.Directory (listDirectory)
 import System.Exit (ExitCode (..))
 import System.FilePath (takeExtension, (</>))
@@ -104,7 +104,14 @@ formOf = fromMaybe (error "no form") . programForm
 
 turning :: Double -> Int -> Cutter
 turning radius n =
-  Cutter {kind = TurningCutter, cutterRadius = Mm radius, cutterSize = Nothing, tip = Just n}
+  Cutter
+    { kind = TurningCutter,
+      cutterRadius = Mm radius,
+      cutterSize = Nothing,
+      tip = Just n,
+      tipRadius = Mm radius,
+      body = plainBody
+    }
 
 headingOf :: [(Int, Cutter)] -> FileHeading
 headingOf tools =
@@ -200,13 +207,13 @@ programOf machine moves = FrameProgram begin (concat made <> map commanding (res
     ((_, left), made) = mapAccumL add (initial, Nothing) moves
     rest = [Frame.commandFrame (given p) | p <- maybeToList left]
     ends = map Frame.commandFrame (Command.finalFrames machine)
-    commanding f = PlannedFrame f Commanding (Region 0 0) (Mm 0)
+    commanding f = PlannedFrame f Commanding (Region 0 0) (Mm 0) 0
     add (earlier, waiting) (now, f, role) =
       let (full, left') = foldl' group ([], waiting) (CommandState.between machine earlier now)
           own = f {commands = maybe [] given left'}
        in ( (now, Nothing),
             map (commanding . Frame.commandFrame . given) full
-              <> [PlannedFrame own role (Region 0 0) (Mm 0)]
+              <> [PlannedFrame own role (Region 0 0) (Mm 0) 0]
           )
     group (full, waiting) ws =
       let (more, pending') =
@@ -230,7 +237,7 @@ readBack machine given program =
 -- | Positions of the centre at the ends of all motions, in micrometres along Z and X.
 centresOf :: FrameProgram -> [(Int, Int)]
 centresOf (FrameProgram begin planned) =
-  map place (drop 1 (scanl (+) begin [increment f | PlannedFrame f _ _ _ <- planned, moves f]))
+  map place (drop 1 (scanl (+) begin [increment f | PlannedFrame f _ _ _ _ <- planned, moves f]))
   where
     moves f = Frame.isMoving f
     place (Pulses3 (Pulses x) (Pulses y) _) = (x, y)

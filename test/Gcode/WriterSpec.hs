@@ -158,7 +158,7 @@ programOf machine start moves = FrameProgram start (map planned (concat made <> 
     ((_, left), made) = mapAccumL add (CommandState.initial {tool = Just 1}, Nothing) moves
     rest = [Frame.commandFrame (given p) | p <- maybeToList left]
     ends = map Frame.commandFrame (Command.finalFrames machine)
-    planned f = PlannedFrame f Linking (Region 0 0) (Mm 0)
+    planned f = PlannedFrame f Linking (Region 0 0) (Mm 0) 0
     add (earlier, waiting) (now, f) =
       let (full, left') =
             foldl' group ([], waiting) (CommandState.between machine earlier now)

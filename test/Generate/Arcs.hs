@@ -19,7 +19,7 @@ import Frame.Frame
   ( Frame (..),
     FrameMotion (..),
     FrameProgram (FrameProgram),
-    PlannedFrame (PlannedFrame, cutterRadius, origin),
+    PlannedFrame (PlannedFrame, cutterRadius, origin, toolIndex),
     Role (..),
   )
 import Frame.Frame qualified as Frame
@@ -76,7 +76,8 @@ quantise machine path =
                 { Frame.frame = f,
                   Frame.role = role,
                   origin = Toolpath.origin m,
-                  cutterRadius
+                  cutterRadius,
+                  toolIndex = 0
                 }
               | f <- fs
             ]

@@ -160,6 +160,8 @@ statement n = at (frequency ([(1, s) | s <- simple] <> [(3, s) | n > 0, s <- dee
         WorkOffset <$> expr n,
         ProgramNumber <$> expr n,
         SafeHeight <$> expr n,
+        Stock <$> expr n <*> maybe' ((,) <$> expr n <*> expr n),
+        Avoid <$> expr n <*> maybe' ((,) <$> expr n <*> expr n),
         LetValue <$> at name <*> expr (n + 1),
         LetFunction <$> at name <*> nonEmpty 2 (at name) <*> expr (n + 1),
         Param <$> at name <*> expr n,
@@ -238,13 +240,18 @@ cutter :: Int -> Gen Cutter
 cutter n =
   at
     ( oneof
-        [ MillCutter <$> expr n,
-          DrillCutter <$> expr n,
+        [ MillCutter <$> expr n <*> some' 3 (at (bodySize n)),
+          DrillCutter <$> expr n <*> some' 3 (at (bodySize n)),
           TurningCutter <$> expr n <*> maybe' (expr n),
           ConeCutter <$> expr n <*> expr n <*> expr n,
           BladeCutter <$> expr n <*> expr n
         ]
     )
+
+bodySize :: Int -> Gen BodySize_
+bodySize n =
+  oneof
+    [Flutes <$> expr n, StickOut <$> expr n, HolderCylinder <$> expr n <*> maybe' (expr n)]
 
 stop :: Int -> Gen Stop
 stop n = Stop <$> expr n <*> oneof [pure Cutting, pure Rapid, AtFeed <$> expr n]

@@ -104,7 +104,13 @@ spec = do
     planned fs =
       FrameProgram
         0
-        [ PlannedFrame {frame = f, role = Linking, origin = Region.Region 0 0, cutterRadius = Mm 0}
+        [ PlannedFrame
+            { frame = f,
+              role = Linking,
+              origin = Region.Region 0 0,
+              cutterRadius = Mm 0,
+              toolIndex = 0
+            }
           | f <- fs
         ]
 

@@ -195,7 +195,7 @@ prove machine path own fs =
     ( Verify.prove
         machine
         path
-        (FrameProgram begin [PlannedFrame f Linking (Region 0 0) (Mm 0) | f <- own])
+        (FrameProgram begin [PlannedFrame f Linking (Region 0 0) (Mm 0) 0 | f <- own])
         fs
     )
   where

@@ -12,12 +12,15 @@ syntax match partNumber /\<\d\+\(\.\d\+\)\?/
 syntax keyword partStatement part machine import tool feed tolerance clearance from let param table curve piece contour assert
 syntax keyword partStatement mill turn drill rapid move change spindle coolant aux with
 " Names as well, but for where a statement begins.
-syntax match partStatement /^\s*\zs\<\(pocket\|work\|program\|safe\|dwell\)\ze\s\+[(-]\?\k/
+syntax match partStatement /^\s*\zs\<\(pocket\|work\|program\|safe\|stock\|avoid\|dwell\)\ze\s\+[(-]\?\k/
 syntax match partStatement /^\s*\zs\<\(optional\s\+\)\?stop\ze\s*\(--.*\)\?$/
 syntax match partStatement /\(\<spindle\s\+\)\@<=manual\>/
 syntax match partStatement /\(^\s*spindle\s.*\)\@<=\<limit\>/
 syntax match partStatement /\(\<change\>.*)\s*\)\@<=at\>/
 syntax match partStatement /\(^\s*dwell\s.*\)\@<=\<s\ze\s*\(--.*\)\?$/
+syntax match partStatement /\(^\s*\(stock\|avoid\)\s.*\<from\>.*\)\@<=\<to\>/
+syntax match partCutter /\(,\s*\)\@<=\(flutes\|stickout\|holder\)\ze\s\+[(-]\?\k/
+syntax match partCutter /\(,\s*holder\s\([^,()]\|([^()]*)\)*\)\@<=\<height\ze\s/
 syntax match partCutter /\(\<turn(.*,\s*\)\@<=tip\>/
 syntax match partStatement /^\s*\zs\<units\ze\s\+\(mm\|in\)\>/
 syntax keyword partFunction region union difference offset_of outlines_of holes_of area_of centroid_of

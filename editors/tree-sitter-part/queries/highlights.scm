@@ -13,7 +13,7 @@
   "part" "units" "machine" "import" "tool" "feed" "tolerance" "clearance" "from"
   "let" "param" "table" "curve" "piece" "contour" "assert"
   "mill" "turn" "pocket" "drill" "rapid" "move" "change" "spindle" "coolant" "aux" "with"
-  "work" "program" "safe" "stop" "optional" "dwell"
+  "work" "program" "safe" "stock" "avoid" "stop" "optional" "dwell"
 ] @keyword
 
 ; Repetition and choice
@@ -34,7 +34,8 @@
   "on" "off" "at" "step"
   "approach" "retract" "depth" "lead" "out" "line" "arc" "allowance" "corners" "round" "sharp"
   "compensation" "compiler" "controller" "start" "plunge" "peck" "islands" "rest" "allowed"
-  "diameter" "nose" "cone" "blade" "height" "gear" "tip" "manual" "limit" "s"
+  "diameter" "nose" "cone" "blade" "height" "gear" "flutes" "stickout" "holder" "tip"
+  "manual" "limit" "s"
 ] @keyword
 (climb) @keyword
 (conventional) @keyword

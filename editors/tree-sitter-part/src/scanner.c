@@ -3,7 +3,7 @@
 #include "tree_sitter/parser.h"
 
 // In the order of `externals` in grammar.js.
-enum TokenType { ROW_END, RAPID_HERE, FEED_HERE, SAME_LINE, RECOVERY };
+enum TokenType { ROW_END, RAPID_HERE, FEED_HERE, FROM_HERE, SAME_LINE, RECOVERY };
 
 void *tree_sitter_part_external_scanner_create(void) { return NULL; }
 
@@ -65,6 +65,10 @@ bool tree_sitter_part_external_scanner_scan(void *payload, TSLexer *lexer, const
   if (valid[FEED_HERE] && lexer->lookahead == 'f') {
     lexer->result_symbol = FEED_HERE;
     return read_word(lexer, "feed");
+  }
+  if (valid[FROM_HERE] && lexer->lookahead == 'f') {
+    lexer->result_symbol = FROM_HERE;
+    return read_word(lexer, "from");
   }
   return false;
 }

@@ -1,0 +1,320 @@
+-- | Contacts of a tool with what it must not touch: solids that the program avoids, and stock.
+--
+-- - No part of a tool may enter an avoided solid.
+-- - A rapid move may not bring the cutter into stock. Without a @stock@ statement, only the holes
+--   and the pockets of the program are known to be in metal.
+-- - The shank above the flutes, and the holder, may not touch stock. The finished part is within
+--   the stock that is left. Without a @stock@ statement, all is stock below the top of the part.
+--
+-- A tool is a pile of cylinders about its axis. Each of them counts as if it had no upper end.
+-- Contacts within the tolerance and one pulse do not count. The comparison is exact over whole
+-- motions in the plane. A motion whose height changes counts by its lowest height.
+module Verify.Collision
+  ( collisions,
+  )
+where
+
+import Base.Quantity (Mm (..), minus, over, plus)
+import Base.Region (Located (..))
+import Data.IntSet (IntSet)
+import Data.IntSet qualified as IntSet
+import Data.List (foldl')
+import Data.List.NonEmpty qualified as NonEmpty
+import Data.Maybe (catMaybes, fromMaybe, isJust, listToMaybe, mapMaybe)
+import Data.Vector qualified as Boxed
+import Data.Vector.Unboxed qualified as Vector
+import Frame.Frame (Frame)
+import Frame.Frame qualified as Frame
+import Geometry.Carrier (Circle (Circle), Sense (CounterClockwise))
+import Geometry.Distance.Fast qualified as FastDistance
+import Geometry.Index.BoundingBox qualified as BoundingBox
+import Geometry.Index.BoxTree qualified as BoxTree
+import Geometry.Segment (Segment)
+import Geometry.Segment qualified as Segment
+import Geometry.Vec qualified as Vec
+import Machine.Machine (Axis (Z), Machine)
+import Machine.Machine qualified as Machine
+import Part.AvoidedSolid qualified as AvoidedSolid
+import Part.Part (Cutter (..), CutterKind (..), HolderCylinder (..), ToolBody (..))
+import Part.Part qualified as Part
+import Toolpath.Toolpath (Block, Toolpath)
+import Toolpath.Toolpath qualified as Toolpath
+import Verify.ForeignCut qualified as ForeignCut
+import Verify.Motion (CutterMotion (..))
+import Verify.Motion qualified as Motion
+import Verify.Proof (Collision (..), Finding (Collides), Obstacle (..), ToolPart (..))
+import Verify.ProofSubject (ProofSubject (..))
+import Verify.ProofSubject qualified as Subject
+import Verify.RemainingStock (Base (Everywhere), Probe (Probe), Removal (Removal), Solid (Solid))
+import Verify.RemainingStock qualified as Stock
+import Verify.SpindleTool qualified as SpindleTool
+
+-- | Facts that all comparisons need.
+data Scene = Scene
+  { subject :: ProofSubject,
+    -- | radius of the cutter in a motion
+    radiusOf :: CutterMotion -> Mm,
+    -- | tools that may be in the spindle in a frame, each with its index
+    toolsIn :: Int -> [(Int, Cutter)],
+    rapidFrames :: IntSet,
+    -- | depth of a contact, in the plane, that does not count
+    allowed :: Mm,
+    -- | the same along z
+    allowedHeight :: Mm
+  }
+
+-- | Cylinder of a tool: the part of the tool, its radius, and the height of its lower end above the
+-- tip.
+data Cylinder = Cylinder ToolPart Mm Mm
+
+-- | Findings for the first contacts of a tape: one for each avoided solid, one for a rapid move into
+-- stock, one for the shank or the holder in stock.
+collisions :: ProofSubject -> (CutterMotion -> Mm) -> [Finding]
+collisions subject radiusOf =
+  map Collides $
+    mapMaybe (listToMaybe . intoAvoided scene) (Toolpath.avoided (Toolpath.setup (path subject)))
+      <> take 1 (rapidsIntoStock scene (metal (path subject)))
+      <> take 1 (bodiesInStock scene)
+  where
+    scene =
+      Scene
+        { subject,
+          radiusOf,
+          toolsIn = toolsOf subject,
+          rapidFrames = rapidsOf subject,
+          allowed =
+            plus
+              (ForeignCut.largestTolerance (path subject))
+              (Machine.planeResolution (machine subject)),
+          allowedHeight = Machine.resolutionOf (machine subject) Z
+        }
+
+-- Tools -------------------------------------------------------------------------------------------
+
+-- | Tools of a toolpath by their index, from 0; Nothing where the program gives none.
+cutters :: Toolpath -> [Maybe Cutter]
+cutters path =
+  Toolpath.firstCutter (Toolpath.setup path) :
+    [ Just c
+      | Toolpath.Commanding (Located _ (Part.ChangeTool _ c)) <- Toolpath.blocks path
+    ]
+
+-- | Tools that may be in the spindle in a frame, by the number of the frame from 1. On a tape that
+-- does not show its tool, these are all tools.
+toolsOf :: ProofSubject -> Int -> [(Int, Cutter)]
+toolsOf subject@ProofSubject {path, program, frames}
+  | Subject.isAligned subject = \n -> tool (fromMaybe 0 (planned Vector.!? (n - 1)))
+  | Just index <- SpindleTool.indicesByCommands program frames = tool . index
+  | otherwise = const (concatMap tool [0 .. Boxed.length all' - 1])
+  where
+    planned = SpindleTool.plannedIndices program
+    all' = Boxed.fromList (cutters path)
+    tool k = [(k, c) | Just (Just c) <- [all' Boxed.!? k]]
+
+-- | Parts of the holder of a tool.
+holderParts :: Cutter -> [Cylinder]
+holderParts c =
+  [Cylinder HolderPart r z | HolderCylinder {holderRadius = r, aboveTip = z} <- holder (body c)]
+
+-- | Numbers of the frames that are rapid moves. A machine without a code for them has a feed code
+-- instead, which is no sign of a rapid move if the program cuts with it.
+rapidsOf :: ProofSubject -> IntSet
+rapidsOf ProofSubject {machine, program, frames} =
+  IntSet.fromList [n | (n, f) <- zip [1 ..] frames, isRapid machine cutsAtRapid f]
+  where
+    cutsAtRapid =
+      or
+        [ Frame.feedCode (Frame.frame p) == Machine.rapidCode machine
+          | p <- Frame.plannedFrames program,
+            Frame.Cutting _ <- [Frame.role p]
+        ]
+
+-- | Test that a frame is a rapid move.
+isRapid :: Machine -> Bool -> Frame -> Bool
+isRapid machine cutsAtRapid f
+  | Machine.hasRapidMotion machine = Frame.motion f == Frame.Rapid
+  | otherwise =
+    Frame.isMoving f && Frame.feedCode f == Machine.rapidCode machine && not cutsAtRapid
+
+-- Avoided solids ----------------------------------------------------------------------------------
+
+-- | Contacts of the tools with an avoided solid, in the order of the tape.
+intoAvoided :: Scene -> Located Part.Solid -> [Collision]
+intoAvoided scene@Scene {subject, radiusOf, toolsIn, allowed, allowedHeight} (Located region solid) =
+  [ (collisionOf scene m cylinder low) {obstacle = AvoidedSolid region top deep r}
+    | m <- BoxTree.within (BoundingBox.inflate widest (AvoidedSolid.boundingBox ready)) index,
+      cylinder@(Cylinder _ r above) <- cylindersOf m,
+      Just (low, part) <- [lowPart (minus (minus top above) allowedHeight) m],
+      let deep = AvoidedSolid.depthOf ready r part,
+      deep > allowed
+  ]
+  where
+    index = motionIndex subject
+    ready = AvoidedSolid.prepared solid
+    top = Part.highest solid
+    cylindersOf m =
+      Cylinder CutterPart (radiusOf m) (Mm 0) :
+        [ Cylinder (if above == Mm 0 then CutterPart else HolderPart) r above
+          | (_, c) <- toolsIn (number m),
+            AvoidedSolid.Cylinder r above <- AvoidedSolid.cylindersOf c
+        ]
+    widest = foldl' max (Mm 0) [r | m <- motions subject, Cylinder _ r _ <- cylindersOf m]
+
+-- | Collision of a part of the tool in a motion, with the lowest height of the tip.
+collisionOf :: Scene -> CutterMotion -> Cylinder -> Mm -> Collision
+collisionOf Scene {subject} m (Cylinder toolPart _ above) low =
+  Collision
+    { frameOfCollision = number m,
+      asked,
+      toolPart,
+      partAbove = above,
+      tipHeight = low,
+      obstacle = StockLeft (Segment.start (segment m))
+    }
+  where
+    asked
+      | Subject.isDifferent subject = Nothing
+      | otherwise =
+        Frame.origin <$> listToMaybe (drop (number m - 1) (Frame.plannedFrames (program subject)))
+
+-- | Part of a motion in which the tip is below a height, and the lowest height of the tip there.
+-- Nothing if it is nowhere below.
+lowPart :: Mm -> CutterMotion -> Maybe (Mm, Segment)
+lowPart limit m
+  | low >= limit = Nothing
+  | high < limit || Segment.length whole <= Mm 0 = Just (low, whole)
+  | fromHeight m < limit = Just (low, Segment.between 0 share whole)
+  | otherwise = Just (low, Segment.between share 1 whole)
+  where
+    whole = boundingPath m
+    (low, high) = (min (fromHeight m) (toHeight m), max (fromHeight m) (toHeight m))
+    share = over (minus limit (fromHeight m)) (minus (toHeight m) (fromHeight m))
+
+-- | Path of a motion; of an arc whose radii differ, the one with the radius of its start.
+boundingPath :: CutterMotion -> Segment
+boundingPath = NonEmpty.head . Motion.paths
+
+-- Stock -------------------------------------------------------------------------------------------
+
+-- | Solids that are known to be stock: that of the program, or else the holes and the pockets.
+metal :: Toolpath -> [Solid]
+metal path = case Toolpath.stock (Toolpath.setup path) of
+  Just (Located _ s) -> catMaybes [stockSolid s]
+  Nothing
+    | Toolpath.isFlat path -> []
+    | otherwise -> mapMaybe (Stock.solidOver (Mm 0)) (concatMap outlinesOf (Toolpath.blocks path))
+
+-- | Solid of a @stock@ statement.
+stockSolid :: Part.Solid -> Maybe Solid
+stockSolid s = Stock.solidOver (Part.highest s) (concatMap segmentsOf (Part.outlines s))
+  where
+    segmentsOf = map Part.segment . NonEmpty.toList . Part.elements
+
+-- | Outlines of the holes and of the pocket of a block, each as its segments.
+outlinesOf :: Block -> [[Segment]]
+outlinesOf block = case block of
+  Toolpath.Holing (Located _ d) _ ->
+    [ [circle (Part.drillRadius d) p]
+      | Located _ p <- NonEmpty.toList (Part.holes d)
+    ]
+  Toolpath.Clearing {Toolpath.pocket = Located _ p} ->
+    [concatMap segmentsOf (Part.contour (Part.wall p) : Part.islands p)]
+  _ -> []
+  where
+    segmentsOf = map Part.segment . NonEmpty.toList . Part.elements
+    circle r@(Mm x) p =
+      Segment.fullCircle CounterClockwise (Circle p r) (Vec.shift (Vec.vec x 0) p)
+
+-- | Rapid moves of the cutter into solids of stock.
+rapidsIntoStock :: Scene -> [Solid] -> [Collision]
+rapidsIntoStock scene@Scene {subject, rapidFrames} solids =
+  [ (collisionOf scene m (Cylinder CutterPart (Mm 0) (Mm 0)) low) {obstacle = StockLeft p}
+    | not (null solids),
+      (k, m) <- zip [0 ..] (motions subject),
+      IntSet.member (number m) rapidFrames,
+      fst (bounds m) < highestTop,
+      (low, p) <- take 1 (contacts k m)
+  ]
+  where
+    highestTop = foldl' max (Mm (-1 / 0)) (map Stock.top solids)
+    index = BoxTree.index boxOf solids
+    boxOf = Stock.boxOfSolid
+    removals = removalsIn scene
+    contacts k m =
+      [ (low, p)
+        | (t, c) <- toolsIn scene (number m),
+          let r = minus (max (radiusOf scene m) (cutterRadius c)) (allowed scene),
+          solid <-
+            BoxTree.within (BoundingBox.inflate (radiusOf scene m) (Motion.box m)) index,
+          Just (low, part) <- [lowPart (minus (Stock.top solid) (allowedHeight scene)) m],
+          Just p <-
+            [Stock.remaining removals solid (Probe k part r (plus low (allowedHeight scene)) t)]
+      ]
+
+-- | Lowest and highest height of the tip in a motion.
+bounds :: CutterMotion -> (Mm, Mm)
+bounds m = (min (fromHeight m) (toHeight m), max (fromHeight m) (toHeight m))
+
+-- | Contacts of the shanks and the holders of tools with stock.
+bodiesInStock :: Scene -> [Collision]
+bodiesInStock scene@Scene {subject}
+  | not (any hasBody (catMaybes (cutters (path subject)))) = []
+  | otherwise =
+    [ (collisionOf scene m cylinder low) {obstacle = StockLeft p}
+      | (k, m) <- zip [0 ..] (motions subject),
+        (t, c) <- toolsIn scene (number m),
+        cylinder@(Cylinder _ r above) <- bodyParts c,
+        solid <- solids,
+        Just (low, part) <-
+          [lowPart (minus (minus (Stock.top solid) above) (allowedHeight scene)) m],
+        let level = plus (plus low above) (allowedHeight scene),
+        Just p <-
+          [Stock.remaining removals solid (Probe k part (minus r (allowed scene)) level t)]
+    ]
+  where
+    removals = removalsIn scene
+    solids = case Toolpath.stock (Toolpath.setup (path subject)) of
+      Just (Located _ s) -> catMaybes [stockSolid s]
+      Nothing -> [Solid Everywhere (Mm 0)]
+    hasBody c = isJust (fluteLength (body c)) || not (null (holder (body c)))
+    bodyParts c =
+      [Cylinder ShankPart (cutterRadius c) z | Just z <- [fluteLength (body c)]] <> holderParts c
+
+-- | Motions of the tape that remove stock.
+removalsIn :: Scene -> Stock.Removals
+removalsIn scene@Scene {subject, rapidFrames} =
+  Stock.removalsOf
+    [ Removal
+        { Stock.order = k,
+          Stock.track = boundingPath m,
+          Stock.fromTip = fromHeight m,
+          Stock.toTip = toHeight m,
+          Stock.width = minus (min (radiusOf scene m) (removed c)) (Mm (uneven m)),
+          Stock.point = pointOf c,
+          Stock.tool = t
+        }
+      | (k, m) <- zip [0 ..] (motions subject),
+        not (IntSet.member (number m) rapidFrames),
+        (t, c) <- take 1 (narrowest (toolsIn scene (number m)))
+    ]
+  where
+    uneven m = FastDistance.uneven (segment m)
+    narrowest tools = case tools of
+      _ : _ : _ -> [foldl1 (\a b -> if removed (snd b) < removed (snd a) then b else a) tools]
+      _ -> tools
+
+-- | Radius within which a tool surely removes all stock above its tip.
+removed :: Cutter -> Mm
+removed c = case kind c of
+  MillingCutter -> cutterRadius c
+  ConeCutter -> tipRadius c
+  DovetailCutter -> Mm 0
+  BladeCutter _ -> Mm 0
+  DrillingCutter -> cutterRadius c
+  TurningCutter -> cutterRadius c
+
+-- | Height of the point of a drill with the usual angle of 118°, in mm; 0 for other tools.
+pointOf :: Cutter -> Mm
+pointOf c = case kind c of
+  DrillingCutter -> let Mm r = cutterRadius c in Mm (r / tan (59 * pi / 180))
+  _ -> Mm 0

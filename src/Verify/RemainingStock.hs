@@ -1,0 +1,216 @@
+-- | Stock that the cutter has not removed yet.
+--
+-- Stock is given by solids. A solid is the points over a region of the plane up to a height. The
+-- stock at a height is removed where the tip of a cutter has been at this height or below it, at
+-- feed: within the radius of the tip of its path. So it is never under-estimated.
+--
+-- A /probe/ is the place of a tool, or of a part of it, during a motion: the points within a
+-- distance of a path, above a level. The question is where, just above the level, stock remains in
+-- the probe, that is, in the region /U/ of all points that are in the probe and in the solid and
+-- within reach of no removal. If U is not empty, its boundary consists of pieces of the boundaries
+-- of the probe, of the solid and of the removals. So it is enough to examine these boundaries. Those
+-- of the removals are moved outwards by 'hair', and that of the probe inwards. Then a point of them
+-- lies in U exactly if no removal covers it, even where boundaries coincide.
+module Verify.RemainingStock
+  ( Solid (..),
+    Base (..),
+    solidOver,
+    boxOfSolid,
+    Removal (..),
+    Removals,
+    removalsOf,
+    Probe (..),
+    remaining,
+  )
+where
+
+import Base.Quantity (Mm (..), minus, over, plus, times)
+import Data.List (nub)
+import Data.List qualified as List
+import Data.Maybe (listToMaybe)
+import Geometry.Distance (ClosestPoint (distance))
+import Geometry.Distance qualified as Distance
+import Geometry.Distance.Fast qualified as FastDistance
+import Geometry.Index.BoundingBox (BoundingBox)
+import Geometry.Index.BoundingBox qualified as BoundingBox
+import Geometry.Index.BoxTree (BoxTree)
+import Geometry.Index.BoxTree qualified as BoxTree
+import Geometry.Segment (Segment)
+import Geometry.Segment qualified as Segment
+import Geometry.Tolerance qualified as Tolerance
+import Geometry.Vec (Point)
+import Geometry.Vec qualified as Vec
+import Geometry.WindingNumber qualified as WindingNumber
+
+-- | Solid: the points over its base, up to a height.
+data Solid = Solid {base :: Base, top :: Mm}
+
+-- | Region of the plane.
+data Base
+  = -- | the whole plane
+    Everywhere
+  | -- | the region inside of its boundary and outside of its holes: the segments of all these, in
+    -- either direction, and a box around them
+    Bounded (BoxTree Segment) BoundingBox
+
+-- | Solid over the region inside closed contours, up to a height; a contour inside another one
+-- bounds a hole. The contours are given by their segments. Nothing without segments.
+solidOver :: Mm -> [Segment] -> Maybe Solid
+solidOver height boundary = case map BoundingBox.ofSegment boundary of
+  [] -> Nothing
+  b : bs ->
+    Just
+      Solid
+        { base =
+            Bounded
+              (BoxTree.index BoundingBox.ofSegment boundary)
+              (List.foldl' BoundingBox.union b bs),
+          top = height
+        }
+
+-- | Bounding box of the base of a solid; that of the reach of all machines for the whole plane.
+boxOfSolid :: Solid -> BoundingBox
+boxOfSolid solid = case base solid of
+  Everywhere -> BoundingBox.inflate Tolerance.reach (BoundingBox.ofPoints (Vec.point 0 0) [])
+  Bounded _ box -> box
+
+-- | Motion that removes stock: the points within its radius of its path.
+data Removal = Removal
+  { -- | number of the motion in the order of the tape
+    order :: Int,
+    track :: Segment,
+    -- | heights of the tip at the start and at the end
+    fromTip, toTip :: Mm,
+    width :: Mm,
+    -- | height of the cutter's point, above which it has the radius 'width'; 0 without a point
+    point :: Mm,
+    -- | number of the tool
+    tool :: Int
+  }
+
+-- | All removals of a tape, and the largest radius among them.
+data Removals = Removals (BoxTree Removal) Mm
+
+-- | Index of removals.
+removalsOf :: [Removal] -> Removals
+removalsOf rs =
+  Removals (BoxTree.index (BoundingBox.ofSegment . track) rs) (List.foldl' max (Mm 0) (map width rs))
+
+-- | Place of a part of a tool during a motion.
+data Probe = Probe
+  { -- | number of the motion in the order of the tape; the removals before it count
+    at :: Int,
+    path :: Segment,
+    reach :: Mm,
+    level :: Mm,
+    -- | number of the tool, whose point fits into the holes that it has drilled
+    byTool :: Int
+  }
+
+-- | Point of the solid's stock that remains in the probe just above its level. Nothing if there is
+-- none.
+remaining :: Removals -> Solid -> Probe -> Maybe Point
+remaining removals solid probe
+  | reach probe <= hair || top solid <= level probe || not (meetsBase solid probe) = Nothing
+  | isQuicklyCovered probe gone = Nothing
+  | otherwise = listToMaybe (filter (isInside (base solid)) (inner <> concatMap around gone) <> rim)
+  where
+    gone = removalsNear removals probe
+    -- Middles of the pieces that no removal covers.
+    exposed = map (Segment.at 0.5) . outside [(plus r (times 0.5 hair), [s]) | (r, s) <- gone]
+    inner = exposed (Distance.neighbourhood (minus (reach probe) hair) (path probe) >>= onRim)
+    -- The neighbourhood consists of whole circles. Pieces of it inside the probe do not matter.
+    onRim = outside [(minus (reach probe) (times 2 hair), [path probe])] . pure
+    around (r, s) = exposed (concatMap inProbe (Distance.neighbourhood (plus r hair) s))
+    rim = case base solid of
+      Everywhere -> []
+      Bounded boundary _ -> exposed (concatMap inProbe (BoxTree.within (boxOf probe) boundary))
+    inProbe = within (minus (reach probe) hair) (path probe)
+
+-- | Distance in mm by which boundaries are moved so that they do not coincide.
+hair :: Mm
+hair = Mm 1e-5
+
+-- | Bounding box of a probe.
+boxOf :: Probe -> BoundingBox
+boxOf probe = BoundingBox.inflate (reach probe) (BoundingBox.ofSegment (path probe))
+
+-- | Test that a probe has a point in common with the base of a solid.
+meetsBase :: Solid -> Probe -> Bool
+meetsBase solid probe = case base solid of
+  Everywhere -> True
+  Bounded boundary box ->
+    BoundingBox.meets (boxOf probe) box
+      && ( any isNear (BoxTree.within (boxOf probe) boundary)
+             || isInside (base solid) (Segment.start (path probe))
+         )
+  where
+    isNear s = distance (Distance.segments s (path probe)) < reach probe
+
+-- | Test that a point lies in a region.
+isInside :: Base -> Point -> Bool
+isInside region p = case region of
+  Everywhere -> True
+  Bounded boundary box ->
+    BoundingBox.distance p box <= Mm 0 && odd (WindingNumber.about p (BoxTree.toList boundary))
+
+-- | Removals before a probe that have removed stock in it at its level. Each has its radius, and
+-- the part of its path on which the tip was low enough.
+removalsNear :: Removals -> Probe -> [(Mm, Segment)]
+removalsNear (Removals tree widest) probe =
+  [ (width r, s)
+    | r <- BoxTree.within (BoundingBox.inflate widest (boxOf probe)) tree,
+      order r < at probe,
+      Just s <- [lowPart (limit r) r],
+      distance (Distance.segments s (path probe)) < plus (width r) (reach probe)
+  ]
+  where
+    limit r = if tool r == byTool probe then level probe else minus (level probe) (point r)
+
+-- | Part of a removal's path on which the tip is at a height or below it. A vertical motion leaves
+-- the tip at its lower end.
+lowPart :: Mm -> Removal -> Maybe Segment
+lowPart limit Removal {track, fromTip, toTip}
+  | max fromTip toTip <= limit = Just track
+  | min fromTip toTip > limit = Nothing
+  | Segment.length track <= Mm 0 = Just track
+  | fromTip <= limit = Just (Segment.between 0 share track)
+  | otherwise = Just (Segment.between share 1 track)
+  where
+    share = over (minus limit fromTip) (minus toTip fromTip)
+
+-- | Test by bounds that removals cover a whole probe. True is certain, False proves nothing.
+isQuicklyCovered :: Probe -> [(Mm, Segment)] -> Bool
+isQuicklyCovered probe gone = any covers (nub (filter (>= reach probe) (map fst gone)))
+  where
+    covers r =
+      let Mm slack = minus r (reach probe)
+       in FastDistance.isCovered
+            slack
+            pure
+            (const True)
+            [s | (r', s) <- gone, r' >= r]
+            (path probe)
+
+-- | Parts of segments that are further away from all paths than the distance of each.
+outside :: [(Mm, [Segment])] -> [Segment] -> [Segment]
+outside others pieces = List.foldl' step pieces others
+  where
+    step left (d, paths) =
+      [ Segment.between a b s
+        | s <- left,
+          (a, b) <- Distance.uncovered d paths s,
+          times (b - a) (Segment.length s) > times 0.01 hair
+      ]
+
+-- | Parts of a segment that are at most a distance away from a path.
+within :: Mm -> Segment -> Segment -> [Segment]
+within d other s =
+  [ Segment.between a b s
+    | (a, b) <- complement 0 (Distance.uncovered d [other] s),
+      b > a
+  ]
+  where
+    complement from gaps = case gaps of
+      [] -> [(from, 1)]
+      (a, b) : more -> (from, a) : complement b more
