@@ -222,6 +222,7 @@ longFunctions =
         "Sheet.Unsupported.toReport",
         "Surface.Error.toReport",
         "Surface.Grammar.statementForms",
+        "Surface.StatementForm.statementForms",
         "Tape.Damage.reasonText",
         "Toolpath.Error.toReport",
         "Toolpath.WarningReport.warningReport",
@@ -229,15 +230,22 @@ longFunctions =
       ]
       <> because
         "a table of words"
-        ["Checked.NameMeaning.meanings", "Surface.WordMeaning.meanings"]
+        [ "Checked.NameMeaning.meanings",
+          "Query.Manual.statements",
+          "Surface.WordMeaning.meanings",
+          "Surface.WordMeaning.statementMeant"
+        ]
       <> because
         "one arm per constructor; the longer arms are functions of their own"
         [ "Checked.Expression.inferred",
           "Checked.FromSurface.statement",
+          "Checked.RequiredSetting.requirement",
           "Part.Expression.evaluate",
           "Part.FromChecked.step",
           "Query.Symbol.symbol",
-          "Surface.PrintProgram.statement"
+          "Surface.PrintProgram.statement",
+          "Surface.SyntaxWalk.ofStatement",
+          "Surface.Unlocated.statement"
         ]
       <> because
         "one inner loop: its parts would take more than ten unboxed numbers each"
@@ -302,6 +310,8 @@ sharedNames =
     <> inGroup
       "one concept at stages that follow one another"
       [ ("Accuracy", ["Checked.Syntax", "Part.Part", "Surface.Syntax"]),
+        ("BodySize", ["Checked.Syntax", "Surface.Syntax"]),
+        ("BodySize_", ["Checked.Syntax", "Surface.Syntax"]),
         ("Cipher", ["Checked.Syntax", "Surface.Syntax"]),
         ("Cipher_", ["Checked.Syntax", "Surface.Syntax"]),
         ("Corners", ["Offset.RawOffset", "Surface.Syntax"]),

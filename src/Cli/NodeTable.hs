@@ -17,6 +17,7 @@ import Base.Quantity (LengthUnit (..), Mm (..), Rad (..), Seconds (..), minus, t
 import Base.Region (Located (..))
 import Cli.CurveTable qualified as CurveTable
 import Cli.RestMaterialTable qualified as RestMaterialTable
+import Cli.StockTable qualified as StockTable
 import Cli.Table (Align (..))
 import Cli.Table qualified as Table
 import Compile (Analysis (..), Punched (..))
@@ -55,6 +56,7 @@ nodes punched Analysis {part, path} =
         <> [pocketText unit machine job pass cleared | (job, pass, cleared) <- clearingsOf path]
         <> holeTable unit [drilling | Holing (Located _ drilling) _ <- Toolpath.blocks path]
         <> RestMaterialTable.tables path
+        <> StockTable.tables unit machine path
         <> [summary unit punched path]
     )
   where

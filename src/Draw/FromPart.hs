@@ -25,6 +25,7 @@ import Draw.Descent qualified as Descent
 import Draw.DimensionLine qualified as DimensionLine
 import Draw.Page qualified as Page
 import Draw.Scene (Cut (..), MaterialSide (..), Rest (..), Scene (..), Shape (..))
+import Draw.StockPlot qualified as StockPlot
 import Draw.ToolUse qualified as ToolUse
 import Geometry.Carrier (Circle (Circle), Sense (..))
 import Geometry.Carrier qualified as Carrier
@@ -74,7 +75,8 @@ scene part path =
         map (shapeOf millingsAt) (drawnContours part) <> map holeOf circles,
       holes = [(p, r) | Circle p (Mm r) <- circles],
       cuts =
-        concatMap (cutsOf (isLastPass path)) (drawnOnce (ToolUse.blocksWithTools path)),
+        map withHolder $
+          concatMap (cutsOf (isLastPass path)) (drawnOnce (ToolUse.blocksWithTools path)),
       leads = leadsOf path,
       restMaterial = restMaterialOf path,
       feeds = along (\pace -> pace /= Rapid),
@@ -86,9 +88,18 @@ scene part path =
           (map (DimensionLine.ofSize (Part.unit part)) (filter isDrawn (Part.assertedSizes part))),
       start = Part.plane (value (Toolpath.start path)),
       spindleAxis = if Toolpath.isTurned path then Just (Vec.point 0 0) else Nothing,
-      tools = ToolUse.uses path
+      tools,
+      stock = StockPlot.stockPlot path
     }
   where
+    tools = ToolUse.uses path
+    withHolder cut =
+      cut
+        { holderRadius =
+            maximum
+              (0 : [r | Just k <- [tool cut], t <- take 1 (drop k tools), Mm r <- holderRadii t])
+        }
+    holderRadii t = map Part.holderRadius (Part.holder (Part.body (ToolUse.cutter t)))
     isDrawn = sizeIsDrawn (drawnContours part) circles
     millingsAt = millingsByStart part
     circles = nubOrd (concatMap holesOf (Part.operations part))
@@ -140,7 +151,7 @@ extent part path =
   foldl
     BoundingBox.union
     (BoundingBox.ofPoints (Part.plane (value (Toolpath.start path))) [])
-    (boxesOf contours path <> mirrored)
+    (boxesOf contours path <> StockPlot.boxes (StockPlot.stockPlot path) <> mirrored)
   where
     contours = drawnContours part
     mirrored = if Toolpath.isTurned path then map mirrorImage (contourBoxes contours) else []
@@ -376,6 +387,7 @@ cutsOf isLast (tool, block) = case block of
           height = Toolpath.atHeight pass,
           tool,
           cutterRadius = let Mm r = radius milling in r,
+          holderRadius = 0,
           away = 1,
           isOnContour = False,
           numbered = False,

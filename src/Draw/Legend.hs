@@ -15,7 +15,13 @@ import Draw.Descent qualified as Descent
 import Draw.LineStyle (LineStyles (..))
 import Draw.LineStyle qualified as LineStyle
 import Draw.Page (Area (..))
-import Draw.Scene (Cut (isOnContour, numbered), MaterialSide (..), Scene (..), Shape (..))
+import Draw.Scene
+  ( Cut (holderRadius, isOnContour, numbered, showsCutter),
+    MaterialSide (..),
+    Scene (..),
+    Shape (..),
+  )
+import Draw.StockPlot qualified as StockPlot
 import Draw.Svg (Anchor (..), Pen (..), Svg)
 import Draw.Svg qualified as Svg
 import Geometry.Segment (Segment (Straight))
@@ -41,16 +47,25 @@ entries styles classes scene =
 
 -- | Entries for contours and areas.
 areaEntries :: LineStyles -> [CutClass] -> Scene -> [(Bool, Point -> [Svg], Text)]
-areaEntries styles classes Scene {shapes, cuts, restMaterial} =
+areaEntries styles classes Scene {shapes, cuts, restMaterial, stock} =
   [ (any ((== Unknown) . materialSide) shapes, line (contourPen styles), "contour"),
     ( any ((/= Unknown) . materialSide) shapes,
-      \p -> surface (materialColour styles) p <> line (contourPen styles) p,
+      \p -> tint (materialColour styles) p <> line (contourPen styles) p,
       "part"
     ),
     (not (null restMaterial), surface (restColour styles), "material left"),
     ( not (null cuts),
-      \p -> surface (sweptColour styles) p <> (if isPlain then line (pathPen styles) p else []),
+      \p ->
+        tint (sweptColour styles) p <> (if isPlain then line (pathPen styles) p else []),
       if isPlain then "cutter path" else "swept"
+    ),
+    ( StockPlot.hasStock stock,
+      \p -> surface (LineStyle.stockColour styles 1) p <> line (stockPen styles) p,
+      "stock left"
+    ),
+    ( not (null (StockPlot.avoidedOutlines stock)),
+      \p -> surface (avoidedColour styles) p <> line (avoidedPen styles) p,
+      "avoided"
     ),
     ( any isOnContour cuts,
       \p -> concatMap (`line` p) [edgePen styles, bedPen styles, pathPen styles],
@@ -59,6 +74,7 @@ areaEntries styles classes Scene {shapes, cuts, restMaterial} =
   ]
   where
     isPlain = map caption classes == ["cutter path"]
+    tint = if StockPlot.hasStock stock then \_ _ -> [] else surface
     surface colour p =
       [ Svg.rectangle
           (Pen "none" 0 [])
@@ -76,6 +92,10 @@ symbolEntries styles scene =
     (descends Ramp, LineStyle.descent styles Ramp `under` 1, "ramp"),
     (descends Helix, LineStyle.descent styles Helix `under` 0, "helix"),
     (not (null (cuts scene)), LineStyle.cutter styles 2 `under` 0, "cutter"),
+    ( any (\c -> showsCutter c && holderRadius c > 0) (cuts scene),
+      \p -> [Svg.ring (holderPen styles) 2 (Vec.shift (Vec.vec 4 0) p)],
+      "holder"
+    ),
     (True, LineStyle.start styles `under` 0, "start"),
     (True, LineStyle.origin styles `under` 0, "origin")
   ]

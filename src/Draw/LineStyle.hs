@@ -8,6 +8,7 @@ module Draw.LineStyle
     Appearance (..),
     LineStyles (..),
     lineStyles,
+    stockColour,
     hatchings,
     classPen,
     lettering,
@@ -25,6 +26,7 @@ module Draw.LineStyle
   )
 where
 
+import Base.Decimal qualified as Decimal
 import Base.Quantity (Mm (..))
 import Data.Text (Text)
 import Draw.Descent (DescentKind (..))
@@ -94,6 +96,13 @@ data LineStyles = LineStyles
     -- | axis of the spindle, and centres of holes
     spindlePen :: Pen,
     restPen :: Pen,
+    stockPen :: Pen,
+    holderPen :: Pen,
+    avoidedColour :: Text,
+    avoidedPen :: Pen,
+    -- | red, green and blue, from 0 to 255, of the stock that nothing has removed, and of the
+    -- lowest stock
+    stockTones :: ((Double, Double, Double), (Double, Double, Double)),
     -- | True if labels need a ground in the colour of the paper, because areas are hatched
     labelsHaveGround :: Bool,
     -- | colours of the classes of cuts
@@ -109,6 +118,9 @@ lineStyles appearance = case appearance of
       { materialColour = "#e4e4e4",
         sweptColour = "#dfe8f7",
         restColour = "#e8604c",
+        avoidedColour = "#fbe3bd",
+        avoidedPen = Pen "#a65c00" 0.35 [],
+        stockTones = ((208, 208, 208), (240, 240, 240)),
         classColours = ["#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9"]
       }
   Dark ->
@@ -116,6 +128,9 @@ lineStyles appearance = case appearance of
       { materialColour = "#2b3138",
         sweptColour = "#1d3450",
         restColour = "#c2402c",
+        avoidedColour = "#4d3a17",
+        avoidedPen = Pen "#ffb84d" 0.35 [],
+        stockTones = ((66, 74, 84), (32, 38, 45)),
         classColours = ["#56b4e9", "#ff7f2a", "#2fd0a0", "#f2a3cf", "#f0e442", "#ffffff"]
       }
   Print ->
@@ -123,6 +138,7 @@ lineStyles appearance = case appearance of
       { materialColour = "white",
         sweptColour = "url(#swept-hatching)",
         restColour = "url(#rest-hatching)",
+        avoidedColour = "url(#avoided-hatching)",
         contourPen = Pen black 0.7 [],
         coordinatePen = Pen black 0.1 [],
         mirrorPen = Pen black 0.35 [],
@@ -155,9 +171,22 @@ inColours paper ink path linking =
       mirrorPen = Pen grey 0.35 [],
       spindlePen = Pen ink 0.2 [8, 1.2, 1.2, 1.2],
       restPen = Pen linking 0.15 [],
+      stockPen = Pen ink 0.25 [6, 1, 1, 1, 1, 1],
+      holderPen = Pen ink 0.2 [2, 1],
+      avoidedColour = paper,
+      avoidedPen = Pen ink 0.35 [],
+      stockTones = ((255, 255, 255), (255, 255, 255)),
       labelsHaveGround = False,
       classColours = []
     }
+
+-- | Colour of stock whose top is at a height: 0 at the bottom of the stock, 1 at its top.
+stockColour :: LineStyles -> Double -> Text
+stockColour styles height =
+  "rgb(" <> tone r r' <> "," <> tone g g' <> "," <> tone b b' <> ")"
+  where
+    ((r, g, b), (r', g', b')) = stockTones styles
+    tone high low = Decimal.whole (round (low + height * (high - low)))
 
 -- | Hatchings that an appearance uses.
 hatchings :: Appearance -> [Svg]
@@ -166,7 +195,8 @@ hatchings appearance = case appearance of
   Dark -> []
   Print ->
     [ Svg.hatch "swept-hatching" (Pen black 0.08 []) 2.2 (-45),
-      Svg.hatch "rest-hatching" (Pen black 0.2 []) 0.6 45
+      Svg.hatch "rest-hatching" (Pen black 0.2 []) 0.6 45,
+      Svg.hatch "avoided-hatching" (Pen black 0.2 []) 1.8 45
     ]
 
 -- | Pen of the class of cuts with a number from 0. Its dashes distinguish it from other classes

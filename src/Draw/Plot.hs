@@ -28,6 +28,7 @@ import Draw.PlotMove qualified as PlotMove
 import Draw.PlotSettings (PlotSettings (..))
 import Draw.Scene (Cut (..), MaterialSide (..), Rest (..), Scene (..), Shape (..))
 import Draw.Scene qualified as Scene
+import Draw.StockPlot qualified as StockPlot
 import Draw.Svg (Anchor (..), Pen (..), Svg)
 import Draw.Svg qualified as Svg
 import Draw.TitleBlock (TitleContent (TitleContent, heading, legend, machining))
@@ -77,7 +78,8 @@ plot settings part path =
 headingOf :: Part -> Text
 headingOf part = Text.intercalate ". " (catMaybes [Name.text <$> Part.name part, Part.title part])
 
--- | Layers below the contours.
+-- | Layers below the contours. Where the stock is known, the stock that is left takes the place of
+-- the material beside the contours and of the swept areas.
 lowerLayers :: PlotSettings -> LineStyles -> LengthUnit -> Page -> Scene -> [Svg]
 lowerLayers settings styles unit page scene =
   [ Svg.layer
@@ -85,20 +87,26 @@ lowerLayers settings styles unit page scene =
       ( LineStyle.hatchings (appearance settings)
           <> [Svg.rectangle (Pen "none" 0 []) (background styles) (Page.paper page)]
       ),
-    Svg.layer "material" (material styles (shapes scene))
+    if hasStock
+      then Svg.layer "stock" (StockPlot.stockAreas styles (stock scene))
+      else Svg.layer "material" (material styles (shapes scene))
   ]
     <> [ Svg.layer "swept-leads" (PlotMove.sweptLeads styles (leads scene))
-         | not (null (leads scene))
+         | not (null (leads scene) || hasStock)
        ]
-    <> [ Svg.layer "swept" (PlotMove.sweptAreas styles (cuts scene)),
-         Svg.layer "axes" (axes styles unit page)
+    <> [Svg.layer "swept" (PlotMove.sweptAreas styles (cuts scene)) | not hasStock]
+    <> [ Svg.layer "avoided" (StockPlot.avoidedAreas styles (stock scene))
+         | not (null (StockPlot.avoidedOutlines (stock scene)))
        ]
+    <> [Svg.layer "axes" (axes styles unit page)]
     <> [ Svg.layer "rests" (rests styles (map around (restMaterial scene)))
          | not (null (restMaterial scene))
        ]
     <> [ Svg.layer "mirrored-half" (mirroredHalf styles (Page.field page) (Vec.y p) scene)
          | Just p <- [spindleAxis scene]
        ]
+  where
+    hasStock = StockPlot.hasStock (stock scene)
 
 -- | Layers from the contours upwards, without the title. The classes are those of the cuts.
 upperLayers :: LineStyles -> LengthUnit -> Page -> [CutClass] -> Scene -> [Svg]

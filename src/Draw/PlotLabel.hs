@@ -60,7 +60,7 @@ obstacles :: Area -> Scene -> [Segment]
 obstacles field scene =
   concatMap outline (shapes scene)
     <> concatMap (NonEmpty.toList . Scene.lines) (cuts scene)
-    <> concat [rim r p : LineStyle.cross r p | (r, p) <- PlotMove.shownCutters (cuts scene)]
+    <> concat [rim r p : LineStyle.cross r p | (r, _, p) <- PlotMove.shownCutters (cuts scene)]
     <> concat [LineStyle.cross 0 (Descent.at d) | d <- descents scene]
     <> feeds scene
     <> rapids scene

@@ -122,16 +122,23 @@ arrowsAt styles = go 0
 
 -- | Cutters at the points where cuts begin.
 cutters :: LineStyles -> [Cut] -> [Svg]
-cutters styles cuts = concat [LineStyle.cutter styles r p | (r, p) <- shownCutters cuts]
+cutters styles cuts =
+  [Svg.ring (holderPen styles) h p | (_, h, p) <- shown, h > 0]
+    <> concat [LineStyle.cutter styles r p | (r, _, p) <- shown]
+  where
+    shown = shownCutters cuts
 
--- | Radii and centres of the cutters that are drawn, each once. If there are more than a few, only
--- the first one of each radius is drawn.
-shownCutters :: [Cut] -> [(Double, Point)]
-shownCutters cuts = if length every > few then nubOrdOn fst every else every
+-- | Radii of the cutters that are drawn and of their holders, and their centres, each once. If
+-- there are more than a few, only the first one of each radius is drawn.
+shownCutters :: [Cut] -> [(Double, Double, Point)]
+shownCutters cuts = if length every > few then nubOrdOn (\(r, h, _) -> (r, h)) every else every
   where
     every =
       nubOrd
-        [(cutterRadius c, Segment.start (NonEmpty.head (Scene.lines c))) | c <- cuts, showsCutter c]
+        [ (cutterRadius c, holderRadius c, Segment.start (NonEmpty.head (Scene.lines c)))
+          | c <- cuts,
+            showsCutter c
+        ]
     few = 6
 
 -- | Lines that mark the centres of drilled holes. They would hide holes smaller than a dot.

@@ -25,6 +25,8 @@ import Draw.DimensionLine (DimensionLine)
 import Draw.DimensionLine qualified as DimensionLine
 import Draw.Page (Page)
 import Draw.Page qualified as Page
+import Draw.StockPlot (StockPlot)
+import Draw.StockPlot qualified as StockPlot
 import Draw.ToolUse (ToolUse)
 import Geometry.Polyarc (Ends (..))
 import Geometry.Segment (Segment)
@@ -57,7 +59,8 @@ data Scene = Scene
     -- | a point on the axis of the spindle, which is horizontal; Nothing for a milled part
     spindleAxis :: Maybe Point,
     -- | tools that cut, in the order of their use
-    tools :: [ToolUse]
+    tools :: [ToolUse],
+    stock :: StockPlot
   }
 
 -- | Contour of the part, or circle of a drilled hole.
@@ -86,6 +89,8 @@ data Cut = Cut
     -- | position of the tool in 'tools'
     tool :: Maybe Int,
     cutterRadius :: Double,
+    -- | radius of the tool's holder, where it is widest; 0 without a holder
+    holderRadius :: Double,
     -- | side of the path on paper that faces away from the contour: +1 for its right, -1 for its
     -- left. It is a factor for 'Vec.left', which points to the right on paper, because y points
     -- down there
@@ -125,7 +130,8 @@ onPage page scene =
       descents = [d {Descent.at = point (Descent.at d)} | d <- descents scene],
       dimensions = map (DimensionLine.onPage page) (dimensions scene),
       start = point (start scene),
-      spindleAxis = point <$> spindleAxis scene
+      spindleAxis = point <$> spindleAxis scene,
+      stock = StockPlot.onPage page (stock scene)
     }
   where
     segment = Page.segment page
@@ -135,5 +141,6 @@ onPage page scene =
       c
         { sections = fmap (fmap segment) (sections c),
           feedRuns = [(f, map segment ss) | (f, ss) <- feedRuns c],
-          cutterRadius = length' (cutterRadius c)
+          cutterRadius = length' (cutterRadius c),
+          holderRadius = length' (holderRadius c)
         }

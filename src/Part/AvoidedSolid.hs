@@ -1,15 +1,11 @@
 -- | Solids that no tool may touch, such as clamps, prepared for questions about motions.
 --
--- A tool is a pile of cylinders about its axis, each with its radius and the height of its lower
--- end above the tip. Each of them counts as if it had no upper end, because a machine with three
--- axes is above it.
+-- A tool is a pile of cylinders about its axis ("Part.CutterBody").
 module Part.AvoidedSolid
   ( AvoidedSolid,
     prepared,
     top,
     boundingBox,
-    Cylinder (..),
-    cylindersOf,
     depthOf,
     heightOver,
   )
@@ -27,7 +23,9 @@ import Geometry.Index.BoxTree qualified as BoxTree
 import Geometry.Segment (Segment)
 import Geometry.Segment qualified as Segment
 import Geometry.WindingNumber qualified as WindingNumber
-import Part.Part (Cutter (..), HolderCylinder (..), Solid (..), ToolBody (..))
+import Part.CutterBody (Cylinder (Cylinder))
+import Part.CutterBody qualified as CutterBody
+import Part.Part (Cutter, Solid (..))
 import Part.Part qualified as Part
 
 -- | A solid with an index of the segments of its outlines.
@@ -47,17 +45,6 @@ prepared solid =
 boundingBox :: AvoidedSolid -> BoundingBox
 boundingBox = BoxTree.boundingBox . boundary
 
--- | A part of a tool: its radius, and the height of its lower end above the tip.
-data Cylinder = Cylinder {radius :: Mm, above :: Mm}
-  deriving stock (Eq, Show)
-
--- | The cylinders of a tool: the cutter, then those of the holder. A conical cutter has its largest
--- radius that is known.
-cylindersOf :: Cutter -> [Cylinder]
-cylindersOf c =
-  Cylinder {radius = max (cutterRadius c) (tipRadius c), above = Mm 0} :
-    [Cylinder {radius = r, above = z} | HolderCylinder r z <- holder (body c)]
-
 -- | The depth to which a cylinder enters the base of a solid while its axis moves along a path, in
 -- mm. It is at most 0 if the cylinder stays beside the solid, and then it may be any such number.
 depthOf :: AvoidedSolid -> Mm -> Segment -> Mm
@@ -70,9 +57,10 @@ depthOf solid r path
         min
         (plus r r)
         [ d
-          | s <- BoxTree.within (BoundingBox.inflate r (BoundingBox.ofSegment path)) (boundary solid),
+          | s <- BoxTree.within around (boundary solid),
             let ClosestPoint d _ = Distance.segments path s
         ]
+    around = BoundingBox.inflate r (BoundingBox.ofSegment path)
     isInside =
       odd (WindingNumber.about (Segment.start path) (BoxTree.toList (boundary solid)))
 
@@ -87,7 +75,7 @@ heightOver clearance solids cutter path z = case highestFree of
     highestFree =
       [ free
         | solid <- solids,
-          Cylinder r h <- cylindersOf cutter,
+          Cylinder r h <- CutterBody.cylindersOf cutter,
           let free = minus (top solid) h,
           free > z,
           depthOf solid r path > Mm 0

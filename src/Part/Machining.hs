@@ -437,11 +437,9 @@ isMill cutterKind = case cutterKind of
 cutterOf :: Environment -> Checked.Cutter -> Eval Cutter
 cutterOf env (Located _ c) = case c of
   Checked.MillCutter e sizes ->
-    withBody sizes =<< sized MillingCutter e . times 0.5
-      <$> lengthOf env Parameter.CutterDiameter e
+    withBody sizes . sized MillingCutter e . times 0.5 =<< lengthOf env Parameter.CutterDiameter e
   Checked.DrillCutter e sizes ->
-    withBody sizes =<< sized DrillingCutter e . times 0.5
-      <$> lengthOf env Parameter.DrillDiameter e
+    withBody sizes . sized DrillingCutter e . times 0.5 =<< lengthOf env Parameter.DrillDiameter e
   Checked.ConeCutter e lean h -> cone env e lean h
   Checked.BladeCutter e g -> do
     d <- lengthOf env Parameter.BladeDiameter e
@@ -469,7 +467,8 @@ cone env e lean h = do
     (Evaluation.mistake (InCurve (SteepBevel (region lean) Nothing (Rad mu))))
   let a = d / 2 + flank * tan mu
   when (a <= 0) (Evaluation.mistake (NotPositive (region lean) Parameter.RadiusAtHeight a))
-  pure (Cutter (if mu < 0 then DovetailCutter else ConeCutter) (Mm a) Nothing Nothing (Mm (d / 2)) plainBody)
+  let kind' = if mu < 0 then DovetailCutter else ConeCutter
+  pure (Cutter kind' (Mm a) Nothing Nothing (Mm (d / 2)) plainBody)
 
 -- | The allowed chord error that a @tolerance@ statement sets.
 accuracyOf :: Environment -> Checked.Accuracy -> Eval (Located Accuracy)

@@ -151,9 +151,7 @@ firstTool = onSameLine "a cutter" $ do
 
 -- | The heights of the bottom and of the top of a body after its region: @from -20 to 0@.
 heights :: Parser (Maybe (Expr, Expr))
-heights =
-  Parsec.optional . onThisLine $
-    (,) <$> (keyword "from" *> expr) <*> (keyword "to" *> expr)
+heights = Parsec.optional (onThisLine ((,) <$> (keyword "from" *> expr) <*> (keyword "to" *> expr)))
 
 -- | A cutter: @mill(diameter 20 mm)@, @drill(…)@, @turn(…)@, @cone(…)@, @blade(…)@.
 cutter :: Parser Cutter

@@ -49,7 +49,10 @@ isCallApart token region around = case (token, previous around) of
         && word `notElem` soft <> Text.words "point points pt vector"
   _ -> False
   where
-    soft = Text.words "cipher joggle depth step radius to by gear height diameter nose flutes stickout holder with"
+    soft =
+      Text.words
+        "cipher joggle depth step radius to by gear height diameter nose flutes stickout holder \
+        \with"
 
 -- Signs and words
 

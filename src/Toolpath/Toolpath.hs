@@ -225,8 +225,8 @@ passNumbers = go 0
       Holing _ _ -> False
       Commanding _ -> False
 
--- | The blocks of a toolpath, each with the tool in the spindle. It is Nothing before the first tool
--- change of a program without a first tool.
+-- | The blocks of a toolpath, each with the tool in the spindle. The tool is Nothing before the
+-- first tool change of a program without a first tool.
 withTools :: Setup -> [Block] -> [(Maybe Cutter, Block)]
 withTools setup' = go (firstCutter setup')
   where

@@ -35,22 +35,29 @@ import Geometry.Vec qualified as Vec
 import Machine.Machine (Axis (Z), Machine)
 import Machine.Machine qualified as Machine
 import Part.AvoidedSolid qualified as AvoidedSolid
-import Part.Part (Cutter (..), CutterKind (..), HolderCylinder (..), ToolBody (..))
+import Part.CutterBody qualified as CutterBody
+import Part.Part (Cutter (..), HolderCylinder (..), ToolBody (..))
 import Part.Part qualified as Part
 import Toolpath.Toolpath (Block, Toolpath)
 import Toolpath.Toolpath qualified as Toolpath
+import Verify.CollisionFinding (Collision (..), Contact (..), ToolPart (..))
 import Verify.ForeignCut qualified as ForeignCut
 import Verify.Motion (CutterMotion (..))
 import Verify.Motion qualified as Motion
-import Verify.Proof (Collision (..), Finding (Collides), Obstacle (..), ToolPart (..))
+import Verify.Proof (Finding (Collides))
 import Verify.ProofSubject (ProofSubject (..))
 import Verify.ProofSubject qualified as Subject
-import Verify.RemainingStock (Base (Everywhere), Probe (Probe), Removal (Removal), Solid (Solid))
+import Verify.RemainingStock
+  ( Base (Everywhere),
+    Probe (Probe),
+    Removal (Removal),
+    StockSolid (StockSolid),
+  )
 import Verify.RemainingStock qualified as Stock
 import Verify.SpindleTool qualified as SpindleTool
 
 -- | Facts that all comparisons need.
-data Scene = Scene
+data Facts = Facts
   { subject :: ProofSubject,
     -- | radius of the cutter in a motion
     radiusOf :: CutterMotion -> Mm,
@@ -67,17 +74,17 @@ data Scene = Scene
 -- tip.
 data Cylinder = Cylinder ToolPart Mm Mm
 
--- | Findings for the first contacts of a tape: one for each avoided solid, one for a rapid move into
--- stock, one for the shank or the holder in stock.
+-- | Findings for the first contacts of a tape: one for each avoided solid, one for a rapid move
+-- into stock, one for the shank or the holder in stock.
 collisions :: ProofSubject -> (CutterMotion -> Mm) -> [Finding]
 collisions subject radiusOf =
   map Collides $
-    mapMaybe (listToMaybe . intoAvoided scene) (Toolpath.avoided (Toolpath.setup (path subject)))
-      <> take 1 (rapidsIntoStock scene (metal (path subject)))
-      <> take 1 (bodiesInStock scene)
+    mapMaybe (listToMaybe . intoAvoided facts) (Toolpath.avoided (Toolpath.setup (path subject)))
+      <> take 1 (rapidsIntoStock facts (metal (path subject)))
+      <> take 1 (bodiesInStock facts)
   where
-    scene =
-      Scene
+    facts =
+      Facts
         { subject,
           radiusOf,
           toolsIn = toolsOf subject,
@@ -139,9 +146,9 @@ isRapid machine cutsAtRapid f
 -- Avoided solids ----------------------------------------------------------------------------------
 
 -- | Contacts of the tools with an avoided solid, in the order of the tape.
-intoAvoided :: Scene -> Located Part.Solid -> [Collision]
-intoAvoided scene@Scene {subject, radiusOf, toolsIn, allowed, allowedHeight} (Located region solid) =
-  [ (collisionOf scene m cylinder low) {obstacle = AvoidedSolid region top deep r}
+intoAvoided :: Facts -> Located Part.Solid -> [Collision]
+intoAvoided facts (Located region solid) =
+  [ (collisionOf facts m cylinder low) {contact = AvoidedSolid region top deep r}
     | m <- BoxTree.within (BoundingBox.inflate widest (AvoidedSolid.boundingBox ready)) index,
       cylinder@(Cylinder _ r above) <- cylindersOf m,
       Just (low, part) <- [lowPart (minus (minus top above) allowedHeight) m],
@@ -149,6 +156,7 @@ intoAvoided scene@Scene {subject, radiusOf, toolsIn, allowed, allowedHeight} (Lo
       deep > allowed
   ]
   where
+    Facts {subject, radiusOf, toolsIn, allowed, allowedHeight} = facts
     index = motionIndex subject
     ready = AvoidedSolid.prepared solid
     top = Part.highest solid
@@ -156,20 +164,20 @@ intoAvoided scene@Scene {subject, radiusOf, toolsIn, allowed, allowedHeight} (Lo
       Cylinder CutterPart (radiusOf m) (Mm 0) :
         [ Cylinder (if above == Mm 0 then CutterPart else HolderPart) r above
           | (_, c) <- toolsIn (number m),
-            AvoidedSolid.Cylinder r above <- AvoidedSolid.cylindersOf c
+            CutterBody.Cylinder r above <- CutterBody.cylindersOf c
         ]
     widest = foldl' max (Mm 0) [r | m <- motions subject, Cylinder _ r _ <- cylindersOf m]
 
 -- | Collision of a part of the tool in a motion, with the lowest height of the tip.
-collisionOf :: Scene -> CutterMotion -> Cylinder -> Mm -> Collision
-collisionOf Scene {subject} m (Cylinder toolPart _ above) low =
+collisionOf :: Facts -> CutterMotion -> Cylinder -> Mm -> Collision
+collisionOf Facts {subject} m (Cylinder toolPart _ above) low =
   Collision
     { frameOfCollision = number m,
       asked,
       toolPart,
       partAbove = above,
       tipHeight = low,
-      obstacle = StockLeft (Segment.start (segment m))
+      contact = StockLeft (Segment.start (segment m))
     }
   where
     asked
@@ -197,7 +205,7 @@ boundingPath = NonEmpty.head . Motion.paths
 -- Stock -------------------------------------------------------------------------------------------
 
 -- | Solids that are known to be stock: that of the program, or else the holes and the pockets.
-metal :: Toolpath -> [Solid]
+metal :: Toolpath -> [StockSolid]
 metal path = case Toolpath.stock (Toolpath.setup path) of
   Just (Located _ s) -> catMaybes [stockSolid s]
   Nothing
@@ -205,7 +213,7 @@ metal path = case Toolpath.stock (Toolpath.setup path) of
     | otherwise -> mapMaybe (Stock.solidOver (Mm 0)) (concatMap outlinesOf (Toolpath.blocks path))
 
 -- | Solid of a @stock@ statement.
-stockSolid :: Part.Solid -> Maybe Solid
+stockSolid :: Part.Solid -> Maybe StockSolid
 stockSolid s = Stock.solidOver (Part.highest s) (concatMap segmentsOf (Part.outlines s))
   where
     segmentsOf = map Part.segment . NonEmpty.toList . Part.elements
@@ -226,9 +234,9 @@ outlinesOf block = case block of
       Segment.fullCircle CounterClockwise (Circle p r) (Vec.shift (Vec.vec x 0) p)
 
 -- | Rapid moves of the cutter into solids of stock.
-rapidsIntoStock :: Scene -> [Solid] -> [Collision]
-rapidsIntoStock scene@Scene {subject, rapidFrames} solids =
-  [ (collisionOf scene m (Cylinder CutterPart (Mm 0) (Mm 0)) low) {obstacle = StockLeft p}
+rapidsIntoStock :: Facts -> [StockSolid] -> [Collision]
+rapidsIntoStock facts@Facts {subject, rapidFrames} solids =
+  [ (collisionOf facts m (Cylinder CutterPart (Mm 0) (Mm 0)) low) {contact = StockLeft p}
     | not (null solids),
       (k, m) <- zip [0 ..] (motions subject),
       IntSet.member (number m) rapidFrames,
@@ -239,82 +247,79 @@ rapidsIntoStock scene@Scene {subject, rapidFrames} solids =
     highestTop = foldl' max (Mm (-1 / 0)) (map Stock.top solids)
     index = BoxTree.index boxOf solids
     boxOf = Stock.boxOfSolid
-    removals = removalsIn scene
+    removals = removalsIn facts
     contacts k m =
       [ (low, p)
-        | (t, c) <- toolsIn scene (number m),
-          let r = minus (max (radiusOf scene m) (cutterRadius c)) (allowed scene),
+        | (t, c) <- toolsIn facts (number m),
+          let r = minus (cuttingRadius facts m c) (allowed facts),
           solid <-
-            BoxTree.within (BoundingBox.inflate (radiusOf scene m) (Motion.box m)) index,
-          Just (low, part) <- [lowPart (minus (Stock.top solid) (allowedHeight scene)) m],
+            BoxTree.within (BoundingBox.inflate (cuttingRadius facts m c) (Motion.box m)) index,
+          Just (low, part) <- [lowPart (minus (Stock.top solid) (allowedHeight facts)) m],
           Just p <-
-            [Stock.remaining removals solid (Probe k part r (plus low (allowedHeight scene)) t)]
+            [Stock.remaining removals solid (Probe k part r (plus low (allowedHeight facts)) t)]
       ]
+
+-- | Largest radius, and radius within which stock is surely removed, of a cutter in a motion. They
+-- differ only for conical cutters and blades.
+cuttingRadius, removingRadius :: Facts -> CutterMotion -> Cutter -> Mm
+cuttingRadius facts m c = max (radiusOf facts m) (if isConical c then tipRadius c else Mm 0)
+removingRadius facts m c
+  | isConical c = min (radiusOf facts m) (CutterBody.removalRadius c)
+  | otherwise = radiusOf facts m
+
+-- | Test that the radius of a tool is not the same at all heights.
+isConical :: Cutter -> Bool
+isConical c = CutterBody.removalRadius c < cutterRadius c || tipRadius c /= cutterRadius c
 
 -- | Lowest and highest height of the tip in a motion.
 bounds :: CutterMotion -> (Mm, Mm)
 bounds m = (min (fromHeight m) (toHeight m), max (fromHeight m) (toHeight m))
 
 -- | Contacts of the shanks and the holders of tools with stock.
-bodiesInStock :: Scene -> [Collision]
-bodiesInStock scene@Scene {subject}
+bodiesInStock :: Facts -> [Collision]
+bodiesInStock facts@Facts {subject}
   | not (any hasBody (catMaybes (cutters (path subject)))) = []
   | otherwise =
-    [ (collisionOf scene m cylinder low) {obstacle = StockLeft p}
+    [ (collisionOf facts m cylinder low) {contact = StockLeft p}
       | (k, m) <- zip [0 ..] (motions subject),
-        (t, c) <- toolsIn scene (number m),
+        (t, c) <- toolsIn facts (number m),
         cylinder@(Cylinder _ r above) <- bodyParts c,
         solid <- solids,
         Just (low, part) <-
-          [lowPart (minus (minus (Stock.top solid) above) (allowedHeight scene)) m],
-        let level = plus (plus low above) (allowedHeight scene),
+          [lowPart (minus (minus (Stock.top solid) above) (allowedHeight facts)) m],
+        let level = plus (plus low above) (allowedHeight facts),
         Just p <-
-          [Stock.remaining removals solid (Probe k part (minus r (allowed scene)) level t)]
+          [Stock.remaining removals solid (Probe k part (minus r (allowed facts)) level t)]
     ]
   where
-    removals = removalsIn scene
+    removals = removalsIn facts
     solids = case Toolpath.stock (Toolpath.setup (path subject)) of
       Just (Located _ s) -> catMaybes [stockSolid s]
-      Nothing -> [Solid Everywhere (Mm 0)]
+      Nothing -> [StockSolid Everywhere (Mm 0)]
     hasBody c = isJust (fluteLength (body c)) || not (null (holder (body c)))
     bodyParts c =
       [Cylinder ShankPart (cutterRadius c) z | Just z <- [fluteLength (body c)]] <> holderParts c
 
 -- | Motions of the tape that remove stock.
-removalsIn :: Scene -> Stock.Removals
-removalsIn scene@Scene {subject, rapidFrames} =
+removalsIn :: Facts -> Stock.Removals
+removalsIn facts@Facts {subject, rapidFrames} =
   Stock.removalsOf
     [ Removal
         { Stock.order = k,
           Stock.track = boundingPath m,
           Stock.fromTip = fromHeight m,
           Stock.toTip = toHeight m,
-          Stock.width = minus (min (radiusOf scene m) (removed c)) (Mm (uneven m)),
-          Stock.point = pointOf c,
+          Stock.width = minus (removingRadius facts m c) (Mm (uneven m)),
+          Stock.point = CutterBody.pointHeight c,
           Stock.tool = t
         }
       | (k, m) <- zip [0 ..] (motions subject),
         not (IntSet.member (number m) rapidFrames),
-        (t, c) <- take 1 (narrowest (toolsIn scene (number m)))
+        (t, c) <- take 1 (narrowest (toolsIn facts (number m)))
     ]
   where
     uneven m = FastDistance.uneven (segment m)
     narrowest tools = case tools of
-      _ : _ : _ -> [foldl1 (\a b -> if removed (snd b) < removed (snd a) then b else a) tools]
+      _ : _ : _ -> [foldl1 (\a b -> if removed b < removed a then b else a) tools]
       _ -> tools
-
--- | Radius within which a tool surely removes all stock above its tip.
-removed :: Cutter -> Mm
-removed c = case kind c of
-  MillingCutter -> cutterRadius c
-  ConeCutter -> tipRadius c
-  DovetailCutter -> Mm 0
-  BladeCutter _ -> Mm 0
-  DrillingCutter -> cutterRadius c
-  TurningCutter -> cutterRadius c
-
--- | Height of the point of a drill with the usual angle of 118°, in mm; 0 for other tools.
-pointOf :: Cutter -> Mm
-pointOf c = case kind c of
-  DrillingCutter -> let Mm r = cutterRadius c in Mm (r / tan (59 * pi / 180))
-  _ -> Mm 0
+    removed = CutterBody.removalRadius . snd

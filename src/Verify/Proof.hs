@@ -11,9 +11,6 @@ module Verify.Proof
     isOffContour,
     Speed (..),
     Refusal (..),
-    Collision (..),
-    ToolPart (..),
-    Obstacle (..),
     isProven,
     toReports,
     frameOf,
@@ -23,7 +20,7 @@ where
 import Base.Decimal qualified as Decimal
 import Base.Name (Name)
 import Base.PulseVector (Pulses3 (..))
-import Base.Quantity (Feed (..), LengthUnit (..), Mm (..), Pulses (..), minus, plus)
+import Base.Quantity (Feed (..), LengthUnit (..), Mm (..), Pulses (..))
 import Base.Region (Located, Region)
 import Control.Compensation (CompensationError)
 import Control.CompensationCheck qualified as CompensationCheck
@@ -39,6 +36,8 @@ import Machine.Machine qualified as Machine
 import Part.Part (CutSense (..))
 import Report.Report (Label (..), Report (hints, label, message, others), ReportPlace (..), report)
 import Report.Report qualified as Report
+import Verify.CollisionFinding (Collision (frameOfCollision))
+import Verify.CollisionFinding qualified as CollisionFinding
 import Verify.ControlFault (ControlFinding)
 
 -- | Witness of a deviation from the part: how large the deviation is, and where.
@@ -231,40 +230,6 @@ data Refusal
     NotCompensated CompensationError
   deriving stock (Eq, Show)
 
--- | Contact of a tool with an avoided solid or with stock.
-data Collision = Collision
-  { -- | number of the frame, from 1
-    frameOfCollision :: Int,
-    -- | text in the program that asks for the frame; Nothing if the tape has other frames than
-    -- planned
-    asked :: Maybe Region,
-    toolPart :: ToolPart,
-    -- | height of the lower end of this part above the tip of the tool
-    partAbove :: Mm,
-    -- | lowest height of the tip on the part of the motion that collides
-    tipHeight :: Mm,
-    obstacle :: Obstacle
-  }
-  deriving stock (Eq, Show)
-
--- | Part of a tool.
-data ToolPart
-  = -- | the cutter, from the tip upwards
-    CutterPart
-  | -- | what is above the flutes
-    ShankPart
-  | HolderPart
-  deriving stock (Eq, Show)
-
--- | What a tool collides with.
-data Obstacle
-  = -- | a solid that the program avoids: the region of its statement, its top, how deep the tool
-    -- enters it, and the distance from it that the tool's axis has to keep
-    AvoidedSolid Region Mm Mm Mm
-  | -- | stock: a point at which it still reaches above the lower end of the part
-    StockLeft Point
-  deriving stock (Eq, Show)
-
 -- | Test that a tape has no findings.
 isProven :: Proof -> Bool
 isProven proof = null (findings proof) && null (controlFindings proof)
@@ -362,7 +327,7 @@ toReport unit machine finding = case finding of
         message =
           ["The chips are then cut from the other end, and the wall gets another size and surface."]
       }
-  Collides c -> collisionReport unit c
+  Collides c -> CollisionFinding.toReport unit c
   OffPlane n -> wrong "E0705" InFile (frameWord n <> " moves z, but the program does not")
   TurnsAxis n axis ->
     (wrong "E0718" InFile (frameWord n <> " turns the rotary axis " <> rotaryWord axis))
@@ -479,52 +444,6 @@ toReport unit machine finding = case finding of
                    Machine.value w == Machine.SpeedLimit
                ]
     micro x = Decimal.fixedInUnit unit 4 x
-
--- | Report of a collision.
-collisionReport :: LengthUnit -> Collision -> Report
-collisionReport unit c = case obstacle c of
-  AvoidedSolid region top deep away ->
-    (wrong "E0743" (word <> " enters what the program avoids, by " <> inUnit deep))
-      { others = [Label region ("this reaches up to " <> inUnit top)],
-        message = [tipSentence],
-        hints =
-          [ "The move passes over it if the tip is at "
-              <> inUnit (minus top (partAbove c))
-              <> " or higher, and beside it if the tool's axis keeps "
-              <> inUnit away
-              <> " away from it."
-          ]
-      }
-  StockLeft p -> case toolPart c of
-    CutterPart ->
-      (wrong "E0744" ("frame " <> number' <> " moves in rapid into stock"))
-        { message = ["At " <> Vec.toText unit 3 p <> " there is still stock.", tipSentence],
-          hints = ["Move at a feed there, or go over it."]
-        }
-    _ ->
-      (wrong "E0745" (word <> " runs into stock"))
-        { message =
-            [ "At "
-                <> Vec.toText unit 3 p
-                <> " there is stock above "
-                <> inUnit (plus (tipHeight c) (partAbove c))
-                <> ", where this part of the tool begins.",
-              tipSentence
-            ],
-          hints = [longer (toolPart c)]
-        }
-  where
-    wrong code = report Report.Error code (maybe InFile InSource (asked c))
-    number' = Decimal.whole (frameOfCollision c)
-    inUnit = Decimal.inUnit unit
-    tipSentence = "The tip of the tool comes down to " <> inUnit (tipHeight c) <> "."
-    word = case toolPart c of
-      CutterPart -> "the cutter in frame " <> number'
-      ShankPart -> "the shank above the flutes in frame " <> number'
-      HolderPart -> "the holder in frame " <> number'
-    longer part = case part of
-      HolderPart -> "Let the tool stick out further, or clear the place for the holder before."
-      _ -> "Take a tool with longer flutes, or go down in more passes."
 
 -- | Number of the refused frame.
 refusedFrame :: Refusal -> Int

@@ -8,11 +8,11 @@
 -- distance of a path, above a level. The question is where, just above the level, stock remains in
 -- the probe, that is, in the region /U/ of all points that are in the probe and in the solid and
 -- within reach of no removal. If U is not empty, its boundary consists of pieces of the boundaries
--- of the probe, of the solid and of the removals. So it is enough to examine these boundaries. Those
--- of the removals are moved outwards by 'hair', and that of the probe inwards. Then a point of them
--- lies in U exactly if no removal covers it, even where boundaries coincide.
+-- of the probe, of the solid and of the removals. So it is enough to examine these boundaries.
+-- Those of the removals are moved outwards by 'hair', and that of the probe inwards. Then a point
+-- of them lies in U exactly if no removal covers it, even where boundaries coincide.
 module Verify.RemainingStock
-  ( Solid (..),
+  ( StockSolid (..),
     Base (..),
     solidOver,
     boxOfSolid,
@@ -43,7 +43,7 @@ import Geometry.Vec qualified as Vec
 import Geometry.WindingNumber qualified as WindingNumber
 
 -- | Solid: the points over its base, up to a height.
-data Solid = Solid {base :: Base, top :: Mm}
+data StockSolid = StockSolid {base :: Base, top :: Mm}
 
 -- | Region of the plane.
 data Base
@@ -55,12 +55,12 @@ data Base
 
 -- | Solid over the region inside closed contours, up to a height; a contour inside another one
 -- bounds a hole. The contours are given by their segments. Nothing without segments.
-solidOver :: Mm -> [Segment] -> Maybe Solid
+solidOver :: Mm -> [Segment] -> Maybe StockSolid
 solidOver height boundary = case map BoundingBox.ofSegment boundary of
   [] -> Nothing
   b : bs ->
     Just
-      Solid
+      StockSolid
         { base =
             Bounded
               (BoxTree.index BoundingBox.ofSegment boundary)
@@ -69,7 +69,7 @@ solidOver height boundary = case map BoundingBox.ofSegment boundary of
         }
 
 -- | Bounding box of the base of a solid; that of the reach of all machines for the whole plane.
-boxOfSolid :: Solid -> BoundingBox
+boxOfSolid :: StockSolid -> BoundingBox
 boxOfSolid solid = case base solid of
   Everywhere -> BoundingBox.inflate Tolerance.reach (BoundingBox.ofPoints (Vec.point 0 0) [])
   Bounded _ box -> box
@@ -94,7 +94,9 @@ data Removals = Removals (BoxTree Removal) Mm
 -- | Index of removals.
 removalsOf :: [Removal] -> Removals
 removalsOf rs =
-  Removals (BoxTree.index (BoundingBox.ofSegment . track) rs) (List.foldl' max (Mm 0) (map width rs))
+  Removals
+    (BoxTree.index (BoundingBox.ofSegment . track) rs)
+    (List.foldl' max (Mm 0) (map width rs))
 
 -- | Place of a part of a tool during a motion.
 data Probe = Probe
@@ -109,7 +111,7 @@ data Probe = Probe
 
 -- | Point of the solid's stock that remains in the probe just above its level. Nothing if there is
 -- none.
-remaining :: Removals -> Solid -> Probe -> Maybe Point
+remaining :: Removals -> StockSolid -> Probe -> Maybe Point
 remaining removals solid probe
   | reach probe <= hair || top solid <= level probe || not (meetsBase solid probe) = Nothing
   | isQuicklyCovered probe gone = Nothing
@@ -118,14 +120,15 @@ remaining removals solid probe
     gone = removalsNear removals probe
     -- Middles of the pieces that no removal covers.
     exposed = map (Segment.at 0.5) . outside [(plus r (times 0.5 hair), [s]) | (r, s) <- gone]
-    inner = exposed (Distance.neighbourhood (minus (reach probe) hair) (path probe) >>= onRim)
-    -- The neighbourhood consists of whole circles. Pieces of it inside the probe do not matter.
-    onRim = outside [(minus (reach probe) (times 2 hair), [path probe])] . pure
+    inner =
+      exposed (concatMap inProbe (Distance.neighbourhood (minus (reach probe) hair) (path probe)))
     around (r, s) = exposed (concatMap inProbe (Distance.neighbourhood (plus r hair) s))
     rim = case base solid of
       Everywhere -> []
       Bounded boundary _ -> exposed (concatMap inProbe (BoxTree.within (boxOf probe) boundary))
-    inProbe = within (minus (reach probe) hair) (path probe)
+    -- The boundary of a neighbourhood is given by whole circles. Only their parts in the probe count.
+    -- Those inside it are no boundary, but a point on them that nothing covers is left as well.
+    inProbe = within (minus (reach probe) (times 0.5 hair)) (path probe)
 
 -- | Distance in mm by which boundaries are moved so that they do not coincide.
 hair :: Mm
@@ -136,7 +139,7 @@ boxOf :: Probe -> BoundingBox
 boxOf probe = BoundingBox.inflate (reach probe) (BoundingBox.ofSegment (path probe))
 
 -- | Test that a probe has a point in common with the base of a solid.
-meetsBase :: Solid -> Probe -> Bool
+meetsBase :: StockSolid -> Probe -> Bool
 meetsBase solid probe = case base solid of
   Everywhere -> True
   Bounded boundary box ->

@@ -145,19 +145,9 @@ itemsOfBlock machine isFlat solids left@(along, clearing) visit = case block of
       linksOf milling (RequiredLink.before place begin (beginOf milling cut))
         <> group
         <> linksOf milling (RequiredLink.behind place (finishOf milling cut))
-    linksOf milling = links (slackOf machine milling) . concatMap (overLinks milling)
-    overLinks milling link@(RequiredLink s zs pace region)
-      | pace == Part.Rapid,
-        Just clear <- Part.clearance milling =
-        [RequiredLink s' zs' pace region | (s', zs') <- ways clear (s, zs)]
-      | otherwise = [link]
-    overHoles (Located _ drilling) move
-      | pace move == Part.Rapid =
-        [ move {path = s, between = zs}
-          | (s, zs) <- ways (Part.travelHeight drilling) (path move, between move)
-        ]
-      | otherwise = [move]
-    ways clear = maybe pure (overSolids solids clear) cutter
+    linksOf milling =
+      links (slackOf machine milling) . concatMap (linkOver solids cutter (Part.clearance milling))
+    overHoles (Located _ drilling) = moveOver solids cutter (Part.travelHeight drilling)
 
 -- | Way of a rapid linking move, in the plane and in its heights: over the solids that the program
 -- avoids, straight up before and straight down after them, or as it is.
@@ -171,6 +161,23 @@ overSolids solids clear cutter way@(s, (from, to)) = case s of
             <> [(s, (high, high))]
             <> [(Straight q q, (high, to)) | high /= to]
   _ -> [way]
+
+-- | Linking move over solids, with a clearance height; as it is without one, or if it is not rapid.
+linkOver :: [AvoidedSolid] -> Maybe Cutter -> Maybe Mm -> RequiredLink -> [RequiredLink]
+linkOver solids cutter clearance link@(RequiredLink s zs speed region) =
+  case (speed, clearance, cutter) of
+    (Part.Rapid, Just clear, Just c) ->
+      [RequiredLink s' zs' speed region | (s', zs') <- overSolids solids clear c (s, zs)]
+    _ -> [link]
+
+-- | Move of a drill over solids; as it is if it is not rapid.
+moveOver :: [AvoidedSolid] -> Maybe Cutter -> Mm -> RequiredMove -> [RequiredMove]
+moveOver solids cutter clear move = case (pace move, cutter) of
+  (Part.Rapid, Just c) ->
+    [ move {path = s, between = zs}
+      | (s, zs) <- overSolids solids clear c (path move, between move)
+    ]
+  _ -> [move]
 
 -- | Milling of a pocket's wall, with another stop of the approach at the clearance height, if the
 -- block @block@ has it: if a wall lies between the position where the cutter would plunge and the
@@ -359,9 +366,9 @@ atLevels machine isFlat toolpath =
 
 -- | Group of the motions in one pass of a pocket: those at the height of the pass, and the linking
 -- moves over walls and islands. A linking move rises to the clearance height, or higher over solids
--- that the program avoids, goes there to another position in the pocket, and plunges. It stays in the bounding box of the pocket. Without heights,
--- only the allowance of a pass shows where it ends: a motion into the allowance belongs to the next
--- pass.
+-- that the program avoids, goes there to another position in the pocket, and plunges. It stays in
+-- the bounding box of the pocket. Without heights, only the allowance of a pass shows where it
+-- ends: a motion into the allowance belongs to the next pass.
 inPocket :: Machine -> Bool -> [AvoidedSolid] -> Pocket -> ClearingPass -> MotionGroup
 inPocket machine isFlat solids pocket pass =
   MotionGroup

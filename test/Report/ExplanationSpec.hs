@@ -110,7 +110,10 @@ raisedElsewhere =
         "E0739",
         "E0740",
         "E0741",
-        "E0742"
+        "E0742",
+        "E0743",
+        "E0744",
+        "E0745"
       ]
     ),
     ( "files and the command line",

@@ -1,0 +1,39 @@
+-- | Forms of tools that count for stock and for clamps.
+module Part.CutterBody
+  ( Cylinder (..),
+    cylindersOf,
+    removalRadius,
+    pointHeight,
+  )
+where
+
+import Base.Quantity (Mm (..))
+import Part.Part (Cutter (..), CutterKind (..), HolderCylinder (..), ToolBody (..))
+
+-- | A part of a tool: its radius, and the height of its lower end above the tip. It counts as if it
+-- had no upper end.
+data Cylinder = Cylinder {radius :: Mm, above :: Mm}
+  deriving stock (Eq, Show)
+
+-- | The cylinders of a tool: the cutter, then those of the holder. A conical cutter has its largest
+-- radius that is known.
+cylindersOf :: Cutter -> [Cylinder]
+cylindersOf c =
+  Cylinder {radius = max (cutterRadius c) (tipRadius c), above = Mm 0} :
+    [Cylinder {radius = r, above = z} | HolderCylinder r z <- holder (body c)]
+
+-- | The radius within which a tool surely removes all stock above its tip, and above its point.
+removalRadius :: Cutter -> Mm
+removalRadius c = case kind c of
+  MillingCutter -> cutterRadius c
+  ConeCutter -> tipRadius c
+  DovetailCutter -> Mm 0
+  BladeCutter _ -> Mm 0
+  DrillingCutter -> cutterRadius c
+  TurningCutter -> cutterRadius c
+
+-- | The height of the point of a drill with the usual angle of 118°; 0 for other tools.
+pointHeight :: Cutter -> Mm
+pointHeight c = case kind c of
+  DrillingCutter -> let Mm r = cutterRadius c in Mm (r / tan (59 * pi / 180))
+  _ -> Mm 0

@@ -1,0 +1,102 @@
+-- | Contacts of a tool with what it must not touch, and their reports.
+module Verify.CollisionFinding
+  ( Collision (..),
+    ToolPart (..),
+    Contact (..),
+    toReport,
+  )
+where
+
+import Base.Decimal qualified as Decimal
+import Base.Quantity (LengthUnit, Mm (..), minus, plus)
+import Base.Region (Region)
+import Data.Text (Text)
+import Geometry.Vec (Point)
+import Geometry.Vec qualified as Vec
+import Report.Report (Label (..), Report (hints, message, others), ReportPlace (..), report)
+import Report.Report qualified as Report
+
+-- | Contact of a tool with an avoided solid or with stock.
+data Collision = Collision
+  { -- | number of the frame, from 1
+    frameOfCollision :: Int,
+    -- | text in the program that asks for the frame; Nothing if the tape has other frames than
+    -- planned
+    asked :: Maybe Region,
+    toolPart :: ToolPart,
+    -- | height of the lower end of this part above the tip of the tool
+    partAbove :: Mm,
+    -- | lowest height of the tip on the part of the motion that collides
+    tipHeight :: Mm,
+    contact :: Contact
+  }
+  deriving stock (Eq, Show)
+
+-- | Part of a tool.
+data ToolPart
+  = -- | the cutter, from the tip upwards
+    CutterPart
+  | -- | what is above the flutes
+    ShankPart
+  | HolderPart
+  deriving stock (Eq, Show)
+
+-- | Body that a tool touches.
+data Contact
+  = -- | a solid that the program avoids: the region of its statement, its top, how deep the tool
+    -- enters it, and the distance from it that the tool's axis has to keep
+    AvoidedSolid Region Mm Mm Mm
+  | -- | stock: a point at which it still reaches above the lower end of the part
+    StockLeft Point
+  deriving stock (Eq, Show)
+
+-- | Report of a collision.
+toReport :: LengthUnit -> Collision -> Report
+toReport unit c = case contact c of
+  AvoidedSolid region top deep away ->
+    (wrong "E0743" (word <> " enters what the program avoids, by " <> inUnit deep))
+      { others = [Label region ("this reaches up to " <> inUnit top)],
+        message = [tipSentence],
+        hints =
+          [ "The move passes over it if the tip is at "
+              <> inUnit (minus top (partAbove c))
+              <> " or higher, and beside it if the tool's axis keeps "
+              <> inUnit away
+              <> " away from it."
+          ]
+      }
+  StockLeft p -> case toolPart c of
+    CutterPart ->
+      (wrong "E0744" ("frame " <> number' <> " moves in rapid into stock"))
+        { message = ["At " <> Vec.toText unit 3 p <> " there is still stock.", tipSentence],
+          hints = ["Move at a feed there, or go over it."]
+        }
+    _ ->
+      (wrong "E0745" (word <> " runs into stock"))
+        { message =
+            [ "At "
+                <> Vec.toText unit 3 p
+                <> " there is stock above "
+                <> inUnit (plus (tipHeight c) (partAbove c))
+                <> ", where this part of the tool begins.",
+              tipSentence
+            ],
+          hints = [longerTool (toolPart c)]
+        }
+  where
+    wrong code = report Report.Error code (maybe InFile InSource (asked c))
+    number' = Decimal.whole (frameOfCollision c)
+    inUnit = Decimal.inUnit unit
+    tipSentence = "The tip of the tool comes down to " <> inUnit (tipHeight c) <> "."
+    word = case toolPart c of
+      CutterPart -> "the cutter in frame " <> number'
+      ShankPart -> "the shank above the flutes in frame " <> number'
+      HolderPart -> "the holder in frame " <> number'
+
+-- | Advice after a collision of a part of a tool with stock.
+longerTool :: ToolPart -> Text
+longerTool part = case part of
+  HolderPart -> "Let the tool stick out further, or clear the place for the holder before."
+  _ ->
+    "Take a tool with longer flutes, or go down in more passes. The word flutes gives the length \
+    \of the cutting edges, not their count."
