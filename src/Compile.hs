@@ -264,7 +264,13 @@ proveFiles machine form toolpath program onPath texts =
       | otherwise ->
         let proof = FromGcode.judged machine form heading program reading onPath
             lineRegion = const (Region 0 0)
-            reports = gcodeReports (Toolpath.unit toolpath) machine form lineRegion proof
+            -- The findings of the frames are already reported.
+            further =
+              proof
+                { Proof.findings =
+                    filter (`notElem` Proof.findings onPath) (Proof.findings proof)
+                }
+            reports = gcodeReports (Toolpath.unit toolpath) machine form lineRegion further
          in failing (map inFile reports) proof
   where
     heading = Heading.fromToolpath toolpath

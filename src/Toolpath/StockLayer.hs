@@ -14,10 +14,11 @@ module Toolpath.StockLayer
 where
 
 import Base.Quantity (Mm (..), Rad (..), minus, plus)
-import Data.List (nub)
+import Data.Containers.ListUtils (nubOrd)
 import Data.List.NonEmpty (NonEmpty (..))
 import Data.Map.Strict (Map)
 import Data.Map.Strict qualified as Map
+import Data.Set qualified as Set
 import Geometry.Polyarc (Ends (Closed), Polyarc (Polyarc))
 import Geometry.Polyarc qualified as Polyarc
 import Geometry.Segment (Segment (..))
@@ -40,15 +41,18 @@ data StockLayer = StockLayer {bottom :: Mm, top :: Mm, section :: [Polyarc]}
 -- | The layers of the stock that a toolpath leaves, from the lowest one. The fault is that rounding
 -- decides the region of a layer.
 stockLayers :: Toolpath -> Solid -> Either BooleanFault [StockLayer]
-stockLayers path solid = go [] (Map.toAscList (sweeps path)) (lowest solid)
+stockLayers path solid = go Set.empty [] (Map.toAscList (sweeps path)) (lowest solid)
   where
     whole = map Part.polyarcOf (outlines solid)
-    go gone levels from = case levels of
-      (Mm z, areas) : more
-        | Mm z < highest solid -> do
-          done <- layers gone from (max from (Mm z))
-          gone' <- joined (gone : areas)
-          (done <>) <$> go gone' more (max from (Mm z))
+    -- The passes of a statement at several depths sweep the same areas. Each is joined once.
+    go known gone levels from = case levels of
+      (z, ways) : more
+        | z < highest solid -> do
+          done <- layers gone from (max from z)
+          let new = filter (`Set.notMember` known) (nubOrd ways)
+          swept <- joined (map (uncurry sweptArea) new)
+          gone' <- joined [gone, swept]
+          (done <>) <$> go (foldr Set.insert known new) gone' more (max from z)
       _ -> layers gone from (highest solid)
     layers gone from to
       | from >= to = Right []
@@ -72,10 +76,10 @@ removedVolume solid ls = h * area - volume ls
     area = sum (map (Polyarc.signedArea . Part.polyarcOf) (outlines solid))
     Mm h = minus (highest solid) (lowest solid)
 
--- | The areas that moves sweep, by the height down to which each removes the stock.
-sweeps :: Toolpath -> Map Mm [[Polyarc]]
+-- | The radii and the paths of the moves that remove stock, by the height down to which each does.
+sweeps :: Toolpath -> Map Mm [(Mm, Segment)]
 sweeps path =
-  Map.map (map (uncurry sweptArea) . nub) . Map.fromListWith (flip (<>)) $
+  Map.fromListWith (<>) . reverse $
     [ (plus (heightOf m) (CutterBody.pointHeight cutter), [(r, s)])
       | (Just cutter, b) <- Toolpath.withTools (Toolpath.setup path) (Toolpath.blocks path),
         let r = CutterBody.removalRadius cutter,

@@ -181,7 +181,7 @@ collisionOf Facts {subject} m (Cylinder toolPart _ above) low =
     }
   where
     asked
-      | Subject.isDifferent subject = Nothing
+      | not (Subject.isAligned subject) = Nothing
       | otherwise =
         Frame.origin <$> listToMaybe (drop (number m - 1) (Frame.plannedFrames (program subject)))
 

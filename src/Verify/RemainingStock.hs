@@ -126,8 +126,8 @@ remaining removals solid probe
     rim = case base solid of
       Everywhere -> []
       Bounded boundary _ -> exposed (concatMap inProbe (BoxTree.within (boxOf probe) boundary))
-    -- The boundary of a neighbourhood is given by whole circles. Only their parts in the probe count.
-    -- Those inside it are no boundary, but a point on them that nothing covers is left as well.
+    -- The boundary of a neighbourhood is given by whole circles. Only their parts in the probe
+    -- count. Parts inside it are no boundary, but a point on them that nothing covers is left too.
     inProbe = within (minus (reach probe) (times 0.5 hair)) (path probe)
 
 -- | Distance in mm by which boundaries are moved so that they do not coincide.

@@ -36,7 +36,7 @@ spec = do
     it "are read" $ length files `shouldSatisfy` (>= 8)
     mapM_ collides files
   count <- runIO (askedCount "PARTC_ALTERED")
-  it "altered tapes of all machines with heights are refused (catches a proof of the contours only)" $
+  it "altered tapes of all machines with heights are refused (catches a proof of contours alone)" $
     withMaxSuccess (max 400 (fromMaybe 0 count)) $
       forAllBlind alteredTape $ \(text, machine, kind, proof) ->
         counterexample (Text.unpack text <> show (name machine) <> kind) $

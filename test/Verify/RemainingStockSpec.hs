@@ -67,8 +67,8 @@ shown s =
       show [(track r, fromTip r, toTip r, width r) | r <- removals s]
     ]
 
--- | Tells if a point is left in the probe or, with an error @e@ in mm above 0, if it may be. With an
--- error below 0 it tells if the point surely is.
+-- | Tells if a point is left in the probe or, with an error @e@ in mm above 0, if it may be. With
+-- an error below 0 it tells if the point surely is.
 isLeft :: Double -> Scene -> Point -> Bool
 isLeft e s p =
   distanceTo (path (probe s)) <= mm (reach (probe s)) + e
@@ -110,8 +110,9 @@ samples s =
 scene :: Gen Scene
 scene = do
   onGrid <- frequency [(1, pure True), (2, pure False)]
-  let number low high =
-        if onGrid then fromIntegral <$> choose (ceiling low, floor high :: Int) else choose (low, high)
+  let number low high
+        | onGrid = fromIntegral <$> choose (ceiling low, floor high :: Int)
+        | otherwise = choose (low, high)
       anywhere = Vec.point <$> number (-6) 6 <*> number (-6) 6
       line = Straight <$> anywhere <*> anywhere
       turn = if onGrid then elements [pi / 2, pi, -pi / 2] else choose (-6, 6)
