@@ -46,6 +46,7 @@ run page folder options = do
     place "differences" (Text.unlines notes)
   when ("stages" `elem` parts) $ Whole.staged tools most seconds >>= place "stages"
   when ("mills" `elem` parts) $ Whole.doubled tools >>= place "mills"
+  when ("stock" `elem` parts) $ Whole.stocked tools >>= place "stock"
   when ("controllers" `elem` parts) $
     Peer.command 600 [option "pulses" "pulses"] >>= either (die . Text.unpack) (place "controllers")
   forM_ (lookup "before" options) $ \earlier -> do
@@ -56,7 +57,7 @@ run page folder options = do
       >>= place "whole"
   where
     option name otherwise' = fromMaybe otherwise' (lookup name options)
-    parts = words (option "parts" "kernel stages mills controllers whole")
+    parts = words (option "parts" "kernel stages mills stock controllers whole")
     most = fromMaybe 1000000 (readMaybe (option "most" ""))
     seconds = fromMaybe 20 (readMaybe (option "seconds" "")) :: Double
     place :: Text -> Text -> IO ()

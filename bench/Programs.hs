@@ -49,6 +49,13 @@ data Kind
     OneContour
   | -- | as many spline contours, each around the one before, with a @mill@ statement for each
     Nested
+  | -- | as many islands, each milled outside in four depths, and two holes in each, over stock,
+    -- with two clamps, and tools whose flutes are shorter than the depth and that have holders
+    Plate
+  | -- | the same without stock, clamps, flutes and holders
+    PlainPlate
+  | -- | the union of as many circles, of which each meets its neighbours in a grid
+    Circles
   deriving stock (Eq, Show, Read, Enum, Bounded)
 
 -- | The name of a kind in the tables.
@@ -68,15 +75,18 @@ name kind = case kind of
   Islands -> "islands"
   OneContour -> "one contour"
   Nested -> "nested contours"
+  Plate -> "plate with stock"
+  PlainPlate -> "plate"
+  Circles -> "union of circles"
 
 -- | The largest number of elements. With ten times as many, the program would need more than a
 -- million frames or ten thousand passes, or coordinates beyond the largest one, or pockets that
--- take minutes; programs written by hand are smaller. The last two kinds have a table of their own.
+-- take minutes; programs written by hand are smaller. The last five kinds have tables of their own.
 most :: Kind -> Int
 most kind
   | kind `elem` [Rows, Wavy, LinesFile] = 1000000
   | kind `elem` [RoundPocket, Comb, Islands] = 10000
-  | kind `elem` [OneContour, Nested] = 64
+  | kind `elem` [OneContour, Nested, Plate, PlainPlate, Circles] = 64
   | otherwise = 100000
 
 -- | The text of a program, and the files that it reads, by their names.
@@ -107,6 +117,9 @@ written kind n = case kind of
   Islands -> Written (islands n) []
   OneContour -> Written (mills (replicate n 0)) []
   Nested -> Written (mills [0 .. n - 1]) []
+  Plate -> Written (plate True n) []
+  PlainPlate -> Written (plate False n) []
+  Circles -> Written (circles n) []
   where
     cornered side more =
       Written
@@ -228,6 +241,60 @@ mills numbers =
         [ "mill c" <> Decimal.whole k <> " outside { depth 1 mm  start near (",
           Decimal.whole (10 * k + 100) <> ", 0) }"
         ]
+
+-- | A plate with @n@ islands and two holes in each, with or without stock, clamps and bodies of the
+-- tools.
+plate :: Bool -> Int -> Text
+plate hasStock n =
+  Text.unlines $
+    [ "part plate",
+      "machine iso6983",
+      "tool 1 mill(diameter 6" <> only ", flutes 6, stickout 30, holder 40" <> ")",
+      "feed 600",
+      "tolerance 0.01",
+      "clearance 5",
+      "from (-40, -40, 50)"
+    ]
+      <> [ line
+           | hasStock,
+             line <-
+               [ "stock rectangle((-20, -20), (770, " <> whole (high + 20) <> ")) from -12 to 0",
+                 "avoid rectangle((-60, 0), (-12, 40)) from -12 to 12",
+                 "avoid rectangle((762, 0), (810, 40)) from -12 to 12"
+               ]
+         ]
+      <> ["spindle cw 8000 rpm"]
+      <> [ "mill rounded(" <> at (x - 9) (y - 9) <> ", " <> at (x + 9) (y + 9)
+             <> ", 4) outside { depth 11 step 2.75 }"
+           | (x, y) <- places
+         ]
+      <> [ "change 2 drill(diameter 4" <> only ", flutes 40" <> ")",
+           "spindle cw 3000 rpm",
+           "drill at [" <> Text.intercalate ", " holes <> "] depth 10 { peck 4 }",
+           "rapid (0, 0, 50)"
+         ]
+  where
+    only words' = if hasStock then words' else ""
+    whole = Decimal.whole
+    columns = 25
+    high = 30 * ((n + columns - 1) `div` columns)
+    places =
+      [ (30 * column + 15, 30 * row + 15)
+        | k <- [0 .. n - 1],
+          let (row, column) = k `divMod` columns
+      ]
+    holes = concat [[at (x - 3) y, at (x + 3) y] | (x, y) <- places]
+    at x y = "(" <> whole x <> ", " <> whole y <> ")"
+
+-- | The union of @n@ circles in a grid.
+circles :: Int -> Text
+circles n =
+  header "circles" 2 100
+    <> "let all = union([region(circle((5 * i, 5 * j), 3)) for i in 0.."
+    <> Decimal.whole (side - 1)
+    <> "])\n"
+  where
+    side = ceiling (sqrt (fromIntegral n :: Double)) :: Int
 
 -- | A point with whole coordinates in mm.
 point :: (Int, Int) -> Text

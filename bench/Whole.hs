@@ -4,6 +4,7 @@ module Whole
   ( Tools (..),
     staged,
     doubled,
+    stocked,
     besideBefore,
     besideInterpreter,
   )
@@ -158,26 +159,38 @@ parsed out = do
 doubled :: Tools -> IO Text
 doubled tools =
   Table.table ["program", "statements", "path", "of half as many", "sum"] . concat
-    <$> mapM rowsOf [OneContour, Nested]
+    <$> mapM (growing tools "lkp-01f" [16, 32, 64] "path") [OneContour, Nested]
+
+-- | Programs with stock and clamps, the same without, and unions: the stage that this costs most.
+stocked :: Tools -> IO Text
+stocked tools =
+  Table.table ["program", "size", "stage", "of half as many", "sum"] . concat
+    <$> sequence
+      [ growing tools "iso6983" [125, 250, 500] "verify" Plate,
+        growing tools "iso6983" [125, 250, 500] "verify" PlainPlate,
+        growing tools "iso6983" [250, 500, 1000] "part" Circles
+      ]
+
+-- | The rows of programs of one kind in several sizes: the milliseconds of a stage, their ratio to
+-- those of the size before, and those of all stages. The figures are the medians of five runs.
+growing :: Tools -> String -> [Int] -> Text -> Kind -> IO [Table.Row]
+growing tools machine sizes stage kind = do
+  turns' <- mapM (const (mapM run sizes)) [1 .. 5 :: Int]
+  let medians = fmap middles . sequence <$> transpose turns'
+  pure (zipWith3 row sizes (Left "" : medians) medians)
   where
-    rowsOf kind = do
-      turns' <- mapM (const (mapM (run kind) [16, 32, 64])) [1 .. 5 :: Int]
-      let medians = fmap middles . sequence <$> transpose turns'
-          halves = Left "" : medians
-      pure (zipWith3 (row kind) [16, 32, 64] halves medians)
-    row :: Kind -> Int -> Either Text Staged -> Either Text Staged -> Table.Row
-    row kind n half outcome =
+    row :: Int -> Either Text Staged -> Either Text Staged -> Table.Row
+    row n half outcome =
       [Programs.name kind, Decimal.whole n] <> case outcome of
         Left why -> [Text.take 80 why, "", ""]
         Right s ->
-          [ Table.number (path s),
-            either (const "") (\h -> Decimal.fixed 2 (path s / path h)) half,
+          [ Table.number (of' s),
+            either (const "") (\h -> Decimal.fixed 2 (of' s / of' h)) half,
             Table.number (total s)
           ]
-    path s = sum [t | ("path", t) <- stages s]
-    run :: Kind -> Int -> IO (Either Text Staged)
-    run kind n =
-      (>>= parsed) <$> Peer.command 300 [timer tools, show kind, show n, "lkp-01f"]
+    of' s = sum [t | (name, t) <- stages s, name == stage]
+    run :: Int -> IO (Either Text Staged)
+    run n = (>>= parsed) <$> Peer.command 300 [timer tools, show kind, show n, machine]
 
 -- The state before -------------------------------------------------------------------------------
 

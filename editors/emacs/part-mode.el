@@ -55,7 +55,7 @@
     "rows_of" "points_of" "point_at_x" "point_along" "length_along" "start_of" "end_of"
     "tangent_of" "normal_of" "curvature_of"
     "region" "union" "difference" "offset_of" "outlines_of" "holes_of" "area_of" "centroid_of"
-    "rectangle" "rounded" "slot" "polygon" "ellipse" "gear"
+    "rectangle" "bar" "rounded" "slot" "polygon" "ellipse" "gear"
     "moved" "rotated" "mirrored" "scaled" "reversed" "row" "grid" "around"
     "count_of" "item_of" "lift"
     "sin" "cos" "tan" "asin" "acos" "atan2" "sqrt" "abs" "min" "max" "floor")

@@ -105,6 +105,7 @@ name builtin = case builtin of
   MakePolygon -> "polygon"
   MakeEllipse -> "ellipse"
   MakeGear -> "gear"
+  MakeBar -> "bar"
   XOf -> "x_of"
   YOf -> "y_of"
   MakeSpline -> "spline"
@@ -155,7 +156,7 @@ isConstant builtin = builtin `elem` [Pi, Truth, Falsehood]
 -- | May a program define the name of a function for something else? Then it means this below.
 -- Functions of regions and shapes have such names, because older programs use some of them.
 mayBeHidden :: Text -> Bool
-mayBeHidden word = maybe False (`elem` [RegionOf .. MakeGear]) (lookup word)
+mayBeHidden word = maybe False (`elem` [RegionOf .. MakeBar]) (lookup word)
 
 -- | The forms of a function, with the given unknowns in their types. If several forms still fit a
 -- call when its statement has been checked to the end, the first of them in this list is chosen.
@@ -257,6 +258,7 @@ forms Fresh {dimension = d, anything} builtin = case builtin of
     [ Form (given "centre" Type.aPoint : map (`given` Type.len) ["first", "second"] <> more) Contour
       | more <- [[], [angle]]
     ]
+  MakeBar -> [Form [given "diameter" Type.len, given "length" Type.len] Contour]
   MakeGear ->
     [ Form (given "module" Type.len : given "teeth" Type.number : more) Contour
       | more <- [[], [given "pressure_angle" Type.angle]]

@@ -346,6 +346,7 @@ data Builtin
   | MakePolygon
   | MakeEllipse
   | MakeGear
+  | MakeBar
   | XOf
   | YOf
   | MakeSpline

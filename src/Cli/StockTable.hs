@@ -38,12 +38,12 @@ stockTable unit machine path solid =
   "Stock " <> heightsText unit solid <> "\n\n" <> Table.columns [ToLeft, ToRight, ToLeft] rows
   where
     rows
-      | isEndless solid = [inCut]
+      | isEndless solid && not (Toolpath.isTurned path) = [inCut]
       | otherwise = case StockLayer.stockLayers path solid of
         Left _ -> [["volume removed", "", "rounding decides"], inCut]
         Right layers ->
-          let removed = StockLayer.removedVolume solid layers
-              left = StockLayer.volume layers
+          let removed = StockLayer.removedVolume path solid layers
+              left = StockLayer.volume path layers
            in [ volumeRow "stock" (removed + left),
                 volumeRow "volume removed" removed,
                 volumeRow "volume left" left,

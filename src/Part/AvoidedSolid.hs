@@ -14,7 +14,6 @@ where
 import Base.Quantity (Mm (..), minus, plus)
 import Data.List (foldl')
 import Data.List.NonEmpty qualified as NonEmpty
-import Geometry.Distance (ClosestPoint (ClosestPoint))
 import Geometry.Distance qualified as Distance
 import Geometry.Index.BoundingBox (BoundingBox)
 import Geometry.Index.BoundingBox qualified as BoundingBox
@@ -22,6 +21,7 @@ import Geometry.Index.BoxTree (BoxTree)
 import Geometry.Index.BoxTree qualified as BoxTree
 import Geometry.Segment (Segment)
 import Geometry.Segment qualified as Segment
+import Geometry.Tolerance qualified as Tolerance
 import Geometry.WindingNumber qualified as WindingNumber
 import Part.CutterBody (Cylinder (Cylinder))
 import Part.CutterBody qualified as CutterBody
@@ -49,24 +49,17 @@ boundingBox = BoxTree.boundingBox . boundary
 -- mm. It is at most 0 if the cylinder stays beside the solid, and then it may be any such number.
 depthOf :: AvoidedSolid -> Mm -> Segment -> Mm
 depthOf solid r path
-  | isInside = plus r distance
-  | otherwise = minus r distance
+  | isInside = plus r (distanceTo (BoxTree.toList (boundary solid)))
+  | otherwise = minus r (distanceTo (BoxTree.within around (boundary solid)))
   where
-    distance =
-      foldl'
-        min
-        (plus r r)
-        [ d
-          | s <- BoxTree.within around (boundary solid),
-            let ClosestPoint d _ = Distance.segments path s
-        ]
+    distanceTo = foldl' min (Mm (1 / 0)) . map (Distance.distance . Distance.segments path)
     around = BoundingBox.inflate r (BoundingBox.ofSegment path)
     isInside =
       odd (WindingNumber.about (Segment.start path) (BoxTree.toList (boundary solid)))
 
 -- | The height at which a tool moves over all solids that its way enters: the clearance height
--- above the highest of them. Nothing if it enters none. @path@ is the way in the plane, and @z@ the
--- lower one of the heights of the tip at its ends.
+-- above the highest of them. Nothing if it enters none, or only those that have no top. @path@ is
+-- the way in the plane, and @z@ the lower one of the heights of the tip at its ends.
 heightOver :: Mm -> [AvoidedSolid] -> Cutter -> Segment -> Mm -> Maybe Mm
 heightOver clearance solids cutter path z = case highestFree of
   [] -> Nothing
@@ -75,6 +68,7 @@ heightOver clearance solids cutter path z = case highestFree of
     highestFree =
       [ free
         | solid <- solids,
+          top solid < Tolerance.reach,
           Cylinder r h <- CutterBody.cylindersOf cutter,
           let free = minus (top solid) h,
           free > z,

@@ -149,17 +149,19 @@ shape at builtin arguments = made <$> asum [f at builtin arguments | f <- [corne
 -- | A shape that is evaluated, or the reason why there is none.
 type Shaped = Eval (Either ShapeFault (NonEmpty ShapeSegment))
 
--- | Computes a rectangle, a slot or a polygon.
+-- | Computes a rectangle, a bar, a slot or a polygon.
 cornered :: Region -> Builtin -> [Argument] -> Maybe Shaped
 cornered at builtin arguments = case (builtin, arguments) of
   (MakeRectangle, [Plain (Spatial p), Plain (Spatial q)]) ->
     Just (pure (Shape.rectangle (fromOrigin p) (fromOrigin q)))
   (MakeRectangle, [Plain (Spatial p), Plain (Quantity w), Plain (Quantity h)]) ->
-    Just (Shape.rectangle (fromOrigin p) <$> corner p w h)
+    Just (Shape.rectangle (fromOrigin p) <$> corner (fromOrigin p) w h)
+  (MakeBar, [Plain (Quantity d), Plain (Quantity l)]) ->
+    Just (Shape.rectangle (Vec.point (-l) 0) <$> corner (Vec.point (-l) 0) l (d / 2))
   (MakeRounded, [Plain (Spatial p), Plain (Spatial q), Plain (Quantity r)]) ->
     Just (Shape.rounded (fromOrigin p) (fromOrigin q) <$> size at r)
   (MakeRounded, [Plain (Spatial p), Plain (Quantity w), Plain (Quantity h), Plain (Quantity r)]) ->
-    Just (Shape.rounded (fromOrigin p) <$> corner p w h <*> size at r)
+    Just (Shape.rounded (fromOrigin p) <$> corner (fromOrigin p) w h <*> size at r)
   (MakeSlot, [Plain (Spatial p), Plain (Spatial q), Plain (Quantity w)]) ->
     Just (Shape.slot (fromOrigin p) (fromOrigin q) <$> size at w)
   (MakePolygon, [Plain (ListValue vs)]) ->
@@ -172,7 +174,7 @@ cornered at builtin arguments = case (builtin, arguments) of
     corner p w h = do
       Mm w' <- size at w
       Mm h' <- size at h
-      pure (Vec.shift (Vec.vec w' h') (fromOrigin p))
+      pure (Vec.shift (Vec.vec w' h') p)
     atLeast low what n
       | n < low = Evaluation.mistake (NotWhole at what (FromTo (round low) 10000000) n)
       | otherwise = do

@@ -342,6 +342,7 @@ shapes =
   under
     "functions.md#shapes"
     [ ("rectangle", "Gives the contour of a rectangle."),
+      ("bar", "Gives the half section of a bar: its diameter, its length."),
       ("rounded", "Gives the contour of a rectangle with round corners."),
       ("slot", "Gives the contour of a slot between two centres."),
       ("polygon", "Gives the contour through points, or that of a regular polygon."),

@@ -14,8 +14,10 @@ module Toolpath.StockLayer
 where
 
 import Base.Quantity (Mm (..), Rad (..), minus, plus)
+import Base.Region (Located (..))
 import Data.Containers.ListUtils (nubOrd)
 import Data.List.NonEmpty (NonEmpty (..))
+import Data.List.NonEmpty qualified as NonEmpty
 import Data.Map.Strict (Map)
 import Data.Map.Strict qualified as Map
 import Data.Set qualified as Set
@@ -30,6 +32,8 @@ import Offset.RegionBoolean qualified as RegionBoolean
 import Part.CutterBody qualified as CutterBody
 import Part.Part (Solid (..))
 import Part.Part qualified as Part
+import Part.TurnedArea (OpenSide)
+import Part.TurnedArea qualified as TurnedArea
 import Toolpath.Toolpath (Move, Toolpath)
 import Toolpath.Toolpath qualified as Toolpath
 
@@ -41,7 +45,11 @@ data StockLayer = StockLayer {bottom :: Mm, top :: Mm, section :: [Polyarc]}
 -- | The layers of the stock that a toolpath leaves, from the lowest one. The fault is that rounding
 -- decides the region of a layer.
 stockLayers :: Toolpath -> Solid -> Either BooleanFault [StockLayer]
-stockLayers path solid = go Set.empty [] (Map.toAscList (sweeps path)) (lowest solid)
+stockLayers path solid
+  | Toolpath.isTurned path = do
+    gone <- joined (concat [turnedArea side r s | (side, r, s) <- nubOrd (turnedWays path)])
+    layers gone (lowest solid) (highest solid)
+  | otherwise = go Set.empty [] (Map.toAscList (sweeps path)) (lowest solid)
   where
     whole = map Part.polyarcOf (outlines solid)
     -- The passes of a statement at several depths sweep the same areas. Each is joined once.
@@ -61,20 +69,29 @@ stockLayers path solid = go Set.empty [] (Map.toAscList (sweeps path)) (lowest s
         left <- combined Difference [whole, gone]
         Right [StockLayer {bottom = from, top = to, section = left}]
 
--- | The volume of layers in mm³.
-volume :: [StockLayer] -> Double
-volume ls =
-  sum
-    [ let Mm h = minus (top l) (bottom l) in h * sum (map Polyarc.signedArea (section l))
-      | l <- ls
-    ]
+-- | The volume of the layers in mm³. A turned part turns about the axis y = 0, so its volume is 2π
+-- times the first moment of its section (Pappus).
+volume :: Toolpath -> [StockLayer] -> Double
+volume path ls
+  | Toolpath.isTurned path = 2 * pi * sum (map moment (concatMap section ls))
+  | otherwise =
+    sum
+      [ let Mm h = minus (top l) (bottom l) in h * sum (map Polyarc.signedArea (section l))
+        | l <- ls
+      ]
+  where
+    moment = Vec.dot (Vec.vec 0 1) . Polyarc.firstMoment (Vec.point 0 0)
 
 -- | The volume in mm³ that is removed of a solid so that the layers are left.
-removedVolume :: Solid -> [StockLayer] -> Double
-removedVolume solid ls = h * area - volume ls
+removedVolume :: Toolpath -> Solid -> [StockLayer] -> Double
+removedVolume path solid ls = volume path [whole] - volume path ls
   where
-    area = sum (map (Polyarc.signedArea . Part.polyarcOf) (outlines solid))
-    Mm h = minus (highest solid) (lowest solid)
+    whole =
+      StockLayer
+        { bottom = lowest solid,
+          top = highest solid,
+          section = map Part.polyarcOf (outlines solid)
+        }
 
 -- | The radii and the paths of the moves that remove stock, by the height down to which each does.
 sweeps :: Toolpath -> Map Mm [(Mm, Segment)]
@@ -88,6 +105,37 @@ sweeps path =
         Toolpath.pace m /= Part.Rapid,
         s <- quarters (Toolpath.segment m)
     ]
+
+-- | The radii and the paths of the moves of turning tools at feed, each with the side from which
+-- the tool comes, if it comes from one side only.
+turnedWays :: Toolpath -> [(Maybe OpenSide, Mm, Segment)]
+turnedWays path =
+  [ (Toolpath.openSideOf path k, CutterBody.removalRadius cutter, s)
+    | (k, (Just cutter, b)) <- zip indices (Toolpath.withTools (Toolpath.setup path) blocks),
+      m <- Toolpath.moves b,
+      Toolpath.pace m /= Part.Rapid,
+      s <- quarters (Toolpath.segment m)
+  ]
+  where
+    blocks = Toolpath.blocks path
+    indices = scanl (\n b -> if isChange b then n + 1 else n) 0 blocks
+    isChange b = case b of
+      Toolpath.Commanding (Located _ (Part.ChangeTool _ _)) -> True
+      _ -> False
+
+-- | The area of the nose of a turning tool on its path, and the area behind it.
+turnedArea :: Maybe OpenSide -> Mm -> Segment -> [[Polyarc]]
+turnedArea side r s =
+  [sweptArea r s | r > Mm 0]
+    <> [ [if Polyarc.signedArea area < 0 then Polyarc.reverse area else area]
+         | Just open <- [side],
+           p : ps@(_ : _) <- [distinct (TurnedArea.areaBehind (Mm 0) open r s)],
+           let ends' = NonEmpty.fromList (ps <> [p])
+               area = Polyarc Closed (NonEmpty.zipWith Straight (p :| ps) ends'),
+           abs (Polyarc.signedArea area) > 0
+       ]
+  where
+    distinct ps = map NonEmpty.head (NonEmpty.group ps)
 
 -- | The height down to which a move removes the stock.
 heightOf :: Move -> Mm

@@ -17,6 +17,7 @@ module Toolpath.Toolpath
     moves,
     passNumbers,
     withTools,
+    openSideOf,
     curveRuns,
     isCurve,
     isFlat,
@@ -34,11 +35,13 @@ import Data.List.NonEmpty qualified as NonEmpty
 import Data.Maybe (isNothing)
 import Data.Text (Text)
 import Geometry.Carrier (Side)
+import Geometry.Index.BoundingBox qualified as BoundingBox
 import Geometry.Segment (Segment)
 import Geometry.Segment qualified as Segment
 import Offset.Equidistant qualified as Equidistant
 import Part.Part (Command, Cutter, Drilling, Milling, Pace, Pocketing, Solid, SpacePoint (..), Stop)
 import Part.Part qualified as Part
+import Part.TurnedArea (OpenSide (..))
 
 -- | The cutter's starting position, and the blocks in the order of execution.
 data Toolpath = Toolpath
@@ -234,6 +237,36 @@ withTools setup' = go (firstCutter setup')
       [] -> []
       b@(Commanding (Located _ (Part.ChangeTool _ c))) : more -> (cutter, b) : go (Just c) more
       b : more -> (cutter, b) : go cutter more
+
+-- | The side from which a turning tool comes, by the count of tool changes before it: from below
+-- the profile if it bores in all statements that use it, from above if it never bores. Nothing for
+-- a milled part and for a tool that does both.
+openSideOf :: Toolpath -> Int -> Maybe OpenSide
+openSideOf path
+  | isTurned path = (`lookup` sides)
+  | otherwise = const Nothing
+  where
+    sides = [(k, side) | (k, Just side) <- zip [0 ..] (map sideOf (usesOf (blocks path)))]
+    -- For each tool, the statements that turn with it: true for a bore.
+    usesOf bs = case break isChange bs of
+      (front, []) -> [bores front]
+      (front, _ : more) -> bores front : usesOf more
+    bores bs = [value (Part.side (value job)) == Part.Inside | Cutting {job} <- bs]
+    isChange b = case b of
+      Commanding (Located _ (Part.ChangeTool _ _)) -> True
+      _ -> False
+    sideOf used
+      | and used && not (null used) = Just (Below (Mm (-1)))
+      | or used = Nothing
+      | otherwise = Just (Above beyond)
+    beyond =
+      maximum
+        (Mm 1 : [Mm (y + 1) | Just (Located _ s) <- [stock (setup path)], y <- topsOf s])
+    topsOf s =
+      [ BoundingBox.top (BoundingBox.ofSegment (Part.segment e))
+        | c <- Part.outlines s,
+          e <- NonEmpty.toList (Part.elements c)
+      ]
 
 -- | Groups consecutive moves along one curve of the contour. In each group, all moves except the
 -- first continue the previous move. A move along a single line or arc is a group of its own.

@@ -31,6 +31,7 @@ import Geometry.Index.BoundingBox qualified as BoundingBox
 import Geometry.Index.BoxTree qualified as BoxTree
 import Geometry.Segment (Segment)
 import Geometry.Segment qualified as Segment
+import Geometry.Tolerance qualified as Tolerance
 import Geometry.Vec qualified as Vec
 import Machine.Machine (Axis (Z), Machine)
 import Machine.Machine qualified as Machine
@@ -148,7 +149,7 @@ isRapid machine cutsAtRapid f
 -- | Contacts of the tools with an avoided solid, in the order of the tape.
 intoAvoided :: Facts -> Located Part.Solid -> [Collision]
 intoAvoided facts (Located region solid) =
-  [ (collisionOf facts m cylinder low) {contact = AvoidedSolid region top deep r}
+  [ collisionOf facts m cylinder low top (AvoidedSolid region top deep r)
     | m <- BoxTree.within (BoundingBox.inflate widest (AvoidedSolid.boundingBox ready)) index,
       cylinder@(Cylinder _ r above) <- cylindersOf m,
       Just (low, part) <- [lowPart (minus (minus top above) allowedHeight) m],
@@ -168,16 +169,18 @@ intoAvoided facts (Located region solid) =
         ]
     widest = foldl' max (Mm 0) [r | m <- motions subject, Cylinder _ r _ <- cylindersOf m]
 
--- | Collision of a part of the tool in a motion, with the lowest height of the tip.
-collisionOf :: Facts -> CutterMotion -> Cylinder -> Mm -> Collision
-collisionOf Facts {subject} m (Cylinder toolPart _ above) low =
+-- | Collision of a part of the tool in a motion with a body: the lowest height of the tip, and the
+-- top of the body.
+collisionOf :: Facts -> CutterMotion -> Cylinder -> Mm -> Mm -> Contact -> Collision
+collisionOf Facts {subject} m (Cylinder toolPart _ above) low top contact =
   Collision
     { frameOfCollision = number m,
       asked,
       toolPart,
       partAbove = above,
       tipHeight = low,
-      contact = StockLeft (Segment.start (segment m))
+      isEndless = top >= Tolerance.reach,
+      contact
     }
   where
     asked
@@ -210,23 +213,29 @@ metal path = case Toolpath.stock (Toolpath.setup path) of
   Just (Located _ s) -> catMaybes [stockSolid s]
   Nothing
     | Toolpath.isFlat path -> []
-    | otherwise -> mapMaybe (Stock.solidOver (Mm 0)) (concatMap outlinesOf (Toolpath.blocks path))
+    | otherwise -> mapMaybe (uncurry Stock.solidOver) (concatMap outlinesOf (Toolpath.blocks path))
 
 -- | Solid of a @stock@ statement.
 stockSolid :: Part.Solid -> Maybe StockSolid
-stockSolid s = Stock.solidOver (Part.highest s) (concatMap segmentsOf (Part.outlines s))
+stockSolid s =
+  Stock.solidOver
+    (Part.lowest s, Part.highest s)
+    (concatMap segmentsOf (Part.outlines s))
   where
     segmentsOf = map Part.segment . NonEmpty.toList . Part.elements
 
--- | Outlines of the holes and of the pocket of a block, each as its segments.
-outlinesOf :: Block -> [[Segment]]
+-- | Heights and outlines of the holes and of the pocket of a block, each outline as its segments.
+outlinesOf :: Block -> [((Mm, Mm), [Segment])]
 outlinesOf block = case block of
   Toolpath.Holing (Located _ d) _ ->
-    [ [circle (Part.drillRadius d) p]
+    [ ((Part.bottom d, Mm 0), [circle (Part.drillRadius d) p])
       | Located _ p <- NonEmpty.toList (Part.holes d)
     ]
-  Toolpath.Clearing {Toolpath.pocket = Located _ p} ->
-    [concatMap segmentsOf (Part.contour (Part.wall p) : Part.islands p)]
+  Toolpath.Clearing {Toolpath.pocket = Located _ p, Toolpath.pass} ->
+    [ ( (Toolpath.atHeight pass, Mm 0),
+        concatMap segmentsOf (Part.contour (Part.wall p) : Part.islands p)
+      )
+    ]
   _ -> []
   where
     segmentsOf = map Part.segment . NonEmpty.toList . Part.elements
@@ -236,12 +245,12 @@ outlinesOf block = case block of
 -- | Rapid moves of the cutter into solids of stock.
 rapidsIntoStock :: Facts -> [StockSolid] -> [Collision]
 rapidsIntoStock facts@Facts {subject, rapidFrames} solids =
-  [ (collisionOf facts m (Cylinder CutterPart (Mm 0) (Mm 0)) low) {contact = StockLeft p}
+  [ collisionOf facts m (Cylinder CutterPart (Mm 0) (Mm 0)) low top (StockLeft p)
     | not (null solids),
       (k, m) <- zip [0 ..] (motions subject),
       IntSet.member (number m) rapidFrames,
       fst (bounds m) < highestTop,
-      (low, p) <- take 1 (contacts k m)
+      (low, top, p) <- take 1 (contacts k m)
   ]
   where
     highestTop = foldl' max (Mm (-1 / 0)) (map Stock.top solids)
@@ -249,7 +258,7 @@ rapidsIntoStock facts@Facts {subject, rapidFrames} solids =
     boxOf = Stock.boxOfSolid
     removals = removalsIn facts
     contacts k m =
-      [ (low, p)
+      [ (low, Stock.top solid, p)
         | (t, c) <- toolsIn facts (number m),
           let r = minus (cuttingRadius facts m c) (allowed facts),
           solid <-
@@ -280,7 +289,7 @@ bodiesInStock :: Facts -> [Collision]
 bodiesInStock facts@Facts {subject}
   | not (any hasBody (catMaybes (cutters (path subject)))) = []
   | otherwise =
-    [ (collisionOf facts m cylinder low) {contact = StockLeft p}
+    [ collisionOf facts m cylinder low (Stock.top solid) (StockLeft p)
       | (k, m) <- zip [0 ..] (motions subject),
         (t, c) <- toolsIn facts (number m),
         cylinder@(Cylinder _ r above) <- bodyParts c,
@@ -295,7 +304,7 @@ bodiesInStock facts@Facts {subject}
     removals = removalsIn facts
     solids = case Toolpath.stock (Toolpath.setup (path subject)) of
       Just (Located _ s) -> catMaybes [stockSolid s]
-      Nothing -> [StockSolid Everywhere (Mm 0)]
+      Nothing -> [StockSolid Everywhere (Mm (-1 / 0)) (Mm 0)]
     hasBody c = isJust (fluteLength (body c)) || not (null (holder (body c)))
     bodyParts c =
       [Cylinder ShankPart (cutterRadius c) z | Just z <- [fluteLength (body c)]] <> holderParts c
@@ -311,7 +320,8 @@ removalsIn facts@Facts {subject, rapidFrames} =
           Stock.toTip = toHeight m,
           Stock.width = minus (removingRadius facts m c) (Mm (uneven m)),
           Stock.point = CutterBody.pointHeight c,
-          Stock.tool = t
+          Stock.tool = t,
+          Stock.openSide = Toolpath.openSideOf (path subject) t
         }
       | (k, m) <- zip [0 ..] (motions subject),
         not (IntSet.member (number m) rapidFrames),

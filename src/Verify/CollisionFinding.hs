@@ -28,6 +28,8 @@ data Collision = Collision
     partAbove :: Mm,
     -- | lowest height of the tip on the part of the motion that collides
     tipHeight :: Mm,
+    -- | true if the body has no top, so that no height would do
+    isEndless :: Bool,
     contact :: Contact
   }
   deriving stock (Eq, Show)
@@ -55,43 +57,49 @@ toReport :: LengthUnit -> Collision -> Report
 toReport unit c = case contact c of
   AvoidedSolid region top deep away ->
     (wrong "E0743" (word <> " enters what the program avoids, by " <> inUnit deep))
-      { others = [Label region ("this reaches up to " <> inUnit top)],
-        message = [tipSentence],
+      { others = [Label region (extent top)],
+        message = tipSentence,
         hints =
-          [ "The move passes over it if the tip is at "
-              <> inUnit (minus top (partAbove c))
-              <> " or higher, and beside it if the tool's axis keeps "
-              <> inUnit away
+          [ "The move passes " <> over' top <> "beside it if the tool's axis keeps " <> inUnit away
               <> " away from it."
           ]
       }
   StockLeft p -> case toolPart c of
     CutterPart ->
       (wrong "E0744" ("frame " <> number' <> " moves in rapid into stock"))
-        { message = ["At " <> Vec.toText unit 3 p <> " there is still stock.", tipSentence],
+        { message = ["At " <> at p <> " there is still stock."] <> tipSentence,
           hints = ["Move at a feed there, or go over it."]
         }
     _ ->
       (wrong "E0745" (word <> " runs into stock"))
         { message =
-            [ "At "
-                <> Vec.toText unit 3 p
-                <> " there is stock above "
-                <> inUnit (plus (tipHeight c) (partAbove c))
-                <> ", where this part of the tool begins.",
-              tipSentence
-            ],
+            ["At " <> at p <> " there is stock above its lower end, " <> lowerEnd <> "."]
+              <> tipSentence,
           hints = [longerTool (toolPart c)]
         }
   where
     wrong code = report Report.Error code (maybe InFile InSource (asked c))
     number' = Decimal.whole (frameOfCollision c)
     inUnit = Decimal.inUnit unit
-    tipSentence = "The tip of the tool comes down to " <> inUnit (tipHeight c) <> "."
-    word = case toolPart c of
-      CutterPart -> "the cutter in frame " <> number'
-      ShankPart -> "the shank above the flutes in frame " <> number'
-      HolderPart -> "the holder in frame " <> number'
+    at = Vec.toText unit 3
+    lowerEnd = inUnit (plus (tipHeight c) (partAbove c))
+    extent top
+      | isEndless c = "this has no upper end"
+      | otherwise = "this reaches up to " <> inUnit top
+    over' top
+      | isEndless c = ""
+      | otherwise =
+        "over it if the tip is at " <> inUnit (minus top (partAbove c)) <> " or higher, and "
+    tipSentence =
+      ["The tip of the tool comes down to " <> inUnit (tipHeight c) <> "." | not (isEndless c)]
+    word = partWord (toolPart c) <> " in frame " <> number'
+
+-- | Words for a part of a tool.
+partWord :: ToolPart -> Text
+partWord part = case part of
+  CutterPart -> "the cutter"
+  ShankPart -> "the shank above the flutes"
+  HolderPart -> "the holder"
 
 -- | Advice after a collision of a part of a tool with stock.
 longerTool :: ToolPart -> Text

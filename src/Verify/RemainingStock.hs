@@ -2,7 +2,8 @@
 --
 -- Stock is given by solids. A solid is the points over a region of the plane up to a height. The
 -- stock at a height is removed where the tip of a cutter has been at this height or below it, at
--- feed: within the radius of the tip of its path. So it is never under-estimated.
+-- feed: within the radius of the tip of its path. So it is never under-estimated. A turning tool
+-- also removes what lies behind its nose ("Part.TurnedArea").
 --
 -- A /probe/ is the place of a tool, or of a part of it, during a motion: the points within a
 -- distance of a path, above a level. The question is where, just above the level, stock remains in
@@ -25,9 +26,9 @@ module Verify.RemainingStock
 where
 
 import Base.Quantity (Mm (..), minus, over, plus, times)
-import Data.List (nub)
+import Data.List (nub, sort)
 import Data.List qualified as List
-import Data.Maybe (listToMaybe)
+import Data.Maybe (isJust, listToMaybe)
 import Geometry.Distance (ClosestPoint (distance))
 import Geometry.Distance qualified as Distance
 import Geometry.Distance.Fast qualified as FastDistance
@@ -35,15 +36,17 @@ import Geometry.Index.BoundingBox (BoundingBox)
 import Geometry.Index.BoundingBox qualified as BoundingBox
 import Geometry.Index.BoxTree (BoxTree)
 import Geometry.Index.BoxTree qualified as BoxTree
-import Geometry.Segment (Segment)
+import Geometry.Segment (Segment (Straight))
 import Geometry.Segment qualified as Segment
 import Geometry.Tolerance qualified as Tolerance
 import Geometry.Vec (Point)
 import Geometry.Vec qualified as Vec
 import Geometry.WindingNumber qualified as WindingNumber
+import Part.TurnedArea (OpenSide)
+import Part.TurnedArea qualified as TurnedArea
 
--- | Solid: the points over its base, up to a height.
-data StockSolid = StockSolid {base :: Base, top :: Mm}
+-- | Solid: the points over its base, between two heights.
+data StockSolid = StockSolid {base :: Base, bottom :: Mm, top :: Mm}
 
 -- | Region of the plane.
 data Base
@@ -53,10 +56,10 @@ data Base
     -- either direction, and a box around them
     Bounded (BoxTree Segment) BoundingBox
 
--- | Solid over the region inside closed contours, up to a height; a contour inside another one
+-- | Solid over the region inside closed contours, between two heights; a contour inside another one
 -- bounds a hole. The contours are given by their segments. Nothing without segments.
-solidOver :: Mm -> [Segment] -> Maybe StockSolid
-solidOver height boundary = case map BoundingBox.ofSegment boundary of
+solidOver :: (Mm, Mm) -> [Segment] -> Maybe StockSolid
+solidOver (low, high) boundary = case map BoundingBox.ofSegment boundary of
   [] -> Nothing
   b : bs ->
     Just
@@ -65,7 +68,8 @@ solidOver height boundary = case map BoundingBox.ofSegment boundary of
             Bounded
               (BoxTree.index BoundingBox.ofSegment boundary)
               (List.foldl' BoundingBox.union b bs),
-          top = height
+          bottom = low,
+          top = high
         }
 
 -- | Bounding box of the base of a solid; that of the reach of all machines for the whole plane.
@@ -85,7 +89,9 @@ data Removal = Removal
     -- | height of the cutter's point, above which it has the radius 'width'; 0 without a point
     point :: Mm,
     -- | number of the tool
-    tool :: Int
+    tool :: Int,
+    -- | for a turning tool, the side from which it comes
+    openSide :: Maybe OpenSide
   }
 
 -- | All removals of a tape, and the largest radius among them.
@@ -95,8 +101,23 @@ data Removals = Removals (BoxTree Removal) Mm
 removalsOf :: [Removal] -> Removals
 removalsOf rs =
   Removals
-    (BoxTree.index (BoundingBox.ofSegment . track) rs)
+    (BoxTree.index boxOfRemoval rs)
     (List.foldl' max (Mm 0) (map width rs))
+
+-- | Bounding box of the path of a removal and of the area behind a turning tool.
+boxOfRemoval :: Removal -> BoundingBox
+boxOfRemoval r =
+  List.foldl'
+    (\box p -> BoundingBox.union box (BoundingBox.ofPoints p []))
+    (BoundingBox.ofSegment (track r))
+    (cornersBehind (Mm 0) (track r) r)
+
+-- | Corners of the area that a turning tool removes behind its nose on a part of its path; empty
+-- for other tools. See 'TurnedArea.areaBehind' for the growth.
+cornersBehind :: Mm -> Segment -> Removal -> [Point]
+cornersBehind growth part r = case openSide r of
+  Nothing -> []
+  Just side -> TurnedArea.areaBehind growth side (width r) part
 
 -- | Place of a part of a tool during a motion.
 data Probe = Probe
@@ -112,17 +133,23 @@ data Probe = Probe
 -- | Point of the solid's stock that remains in the probe just above its level. Nothing if there is
 -- none.
 remaining :: Removals -> StockSolid -> Probe -> Maybe Point
-remaining removals solid probe
+remaining removals solid given
   | reach probe <= hair || top solid <= level probe || not (meetsBase solid probe) = Nothing
   | isQuicklyCovered probe gone = Nothing
   | otherwise = listToMaybe (filter (isInside (base solid)) (inner <> concatMap around gone) <> rim)
   where
+    -- Below its bottom, the solid ends.
+    probe = given {level = max (level given) (bottom solid)}
     gone = removalsNear removals probe
     -- Middles of the pieces that no removal covers.
-    exposed = map (Segment.at 0.5) . outside [(plus r (times 0.5 hair), [s]) | (r, s) <- gone]
+    exposed =
+      map (Segment.at 0.5)
+        . flip (List.foldl' outsideArea) [loop (behind (times 0.5 hair)) | Gone _ _ behind <- gone]
+        . outside [(plus r (times 0.5 hair), [s]) | Gone r s _ <- gone]
     inner =
       exposed (concatMap inProbe (Distance.neighbourhood (minus (reach probe) hair) (path probe)))
-    around (r, s) = exposed (concatMap inProbe (Distance.neighbourhood (plus r hair) s))
+    around (Gone r s behind) =
+      exposed (concatMap inProbe (Distance.neighbourhood (plus r hair) s <> loop (behind hair)))
     rim = case base solid of
       Everywhere -> []
       Bounded boundary _ -> exposed (concatMap inProbe (BoxTree.within (boxOf probe) boundary))
@@ -157,15 +184,19 @@ isInside region p = case region of
   Bounded boundary box ->
     BoundingBox.distance p box <= Mm 0 && odd (WindingNumber.about p (BoxTree.toList boundary))
 
--- | Removals before a probe that have removed stock in it at its level. Each has its radius, and
--- the part of its path on which the tip was low enough.
-removalsNear :: Removals -> Probe -> [(Mm, Segment)]
+-- | Stock that a removal has removed at a level: its radius, the part of its path on which the tip
+-- was low enough, and the corners of the area behind a turning tool, by their growth.
+data Gone = Gone Mm Segment (Mm -> [Point])
+
+-- | Removals before a probe that have removed stock in it at its level.
+removalsNear :: Removals -> Probe -> [Gone]
 removalsNear (Removals tree widest) probe =
-  [ (width r, s)
+  [ Gone (width r) s (\growth -> cornersBehind growth s r)
     | r <- BoxTree.within (BoundingBox.inflate widest (boxOf probe)) tree,
       order r < at probe,
       Just s <- [lowPart (limit r) r],
-      distance (Distance.segments s (path probe)) < plus (width r) (reach probe)
+      isJust (openSide r)
+        || distance (Distance.segments s (path probe)) < plus (width r) (reach probe)
   ]
   where
     limit r = if tool r == byTool probe then level probe else minus (level probe) (point r)
@@ -183,8 +214,8 @@ lowPart limit Removal {track, fromTip, toTip}
     share = over (minus limit fromTip) (minus toTip fromTip)
 
 -- | Test by bounds that removals cover a whole probe. True is certain, False proves nothing.
-isQuicklyCovered :: Probe -> [(Mm, Segment)] -> Bool
-isQuicklyCovered probe gone = any covers (nub (filter (>= reach probe) (map fst gone)))
+isQuicklyCovered :: Probe -> [Gone] -> Bool
+isQuicklyCovered probe gone = any covers (nub (filter (>= reach probe) [r | Gone r _ _ <- gone]))
   where
     covers r =
       let Mm slack = minus r (reach probe)
@@ -192,7 +223,7 @@ isQuicklyCovered probe gone = any covers (nub (filter (>= reach probe) (map fst 
             slack
             pure
             (const True)
-            [s | (r', s) <- gone, r' >= r]
+            [s | Gone r' s _ <- gone, r' >= r]
             (path probe)
 
 -- | Parts of segments that are further away from all paths than the distance of each.
@@ -205,6 +236,34 @@ outside others pieces = List.foldl' step pieces others
           (a, b) <- Distance.uncovered d paths s,
           times (b - a) (Segment.length s) > times 0.01 hair
       ]
+
+-- | Parts of segments that are outside of an area with this outline. Without an outline, these are
+-- all segments.
+outsideArea :: [Segment] -> [Segment] -> [Segment]
+outsideArea pieces outline
+  | null outline = pieces
+  | otherwise = filter isOutside (concatMap cut pieces)
+  where
+    isOutside s = WindingNumber.about (Segment.at 0.5 s) outline == 0
+    cut s =
+      [ Segment.between a b s
+        | (a, b) <- zip (0 : marks) (marks <> [1]),
+          times (b - a) (Segment.length s) > times 0.01 hair
+      ]
+      where
+        marks =
+          sort
+            [ t
+              | o <- outline,
+                p <- Distance.intersections s o,
+                let t = Segment.fraction s p,
+                t > 0,
+                t < 1
+            ]
+
+-- | Closed chain of lines through points; empty without points.
+loop :: [Point] -> [Segment]
+loop ps = zipWith Straight ps (drop 1 ps <> take 1 ps)
 
 -- | Parts of a segment that are at most a distance away from a path.
 within :: Mm -> Segment -> Segment -> [Segment]

@@ -39,6 +39,8 @@ spec = do
         `shouldBeNear` (1 * (40 * 6 + pi * 9) + 2 * pi * 9)
     it "a cut beside the stock removes nothing" $
       removed (program "rapid (0, 60, 5)\nmove (0, 60, -3), (9, 60, -3)") `shouldBeNear` 0
+    it "a bar of 40 mm turned to 30 mm over 20 mm, with a nose of 1 mm" $
+      removed turned `shouldBeNear` (pi * ((20 * 20 - 15 * 15) * 19 + 144 + 8 * pi - 2 / 3))
     it "a cut through the bottom removes no more than the stock" $
       removed (program "rapid (0, 0, 5)\nmove (0, 0, -30)") `shouldBeNear` (10 * pi * 9)
   modifyMaxSuccess (const 60)
@@ -75,6 +77,20 @@ program moves =
       moves
     ]
 
+-- | A bar that is turned from its face on, over 20 mm. The nose leaves a fillet of its radius.
+turned :: Text
+turned =
+  Text.unlines
+    [ "part p",
+      "machine lkp-01f",
+      "tool turn(nose 1)",
+      "feed 100",
+      "tolerance 0.01",
+      "from (5, 30)",
+      "stock bar(40, 60)",
+      "move (5, 16), (-19, 16), (5, 30)"
+    ]
+
 -- | Random moves on a grid, so that they touch and coincide, at few heights.
 randomMoves :: Gen Text
 randomMoves = do
@@ -99,7 +115,8 @@ layered text = do
   pure (path, solid, layers)
 
 removed :: Text -> Maybe Double
-removed text = (\(_, solid, layers) -> StockLayer.removedVolume solid layers) <$> layered text
+removed text =
+  (\(path, solid, layers) -> StockLayer.removedVolume path solid layers) <$> layered text
 
 inSection :: StockLayer -> Point -> Bool
 inSection l p = sum [WindingNumber.about p (Polyarc.segments c) | c <- section l] > 0

@@ -32,7 +32,7 @@ spec = modifyMaxSuccess (const 2000) $ do
     forAllBlind ((,) <$> segment <*> choose (0.5, 5)) $ \(s, r) ->
       answer
         Scene
-          { removals = [Removal 0 s (Mm (-1)) (Mm (-1)) (Mm r) (Mm 0) 0],
+          { removals = [Removal 0 s (Mm (-1)) (Mm (-1)) (Mm r) (Mm 0) 0 Nothing],
             solid = Nothing,
             probe = Probe 1 s (Mm (r - 0.001)) (Mm (-1)) 0
           }
@@ -43,7 +43,7 @@ spec = modifyMaxSuccess (const 2000) $ do
         let found =
               answer
                 Scene
-                  { removals = [Removal k s (Mm z) (Mm z) (Mm r) (Mm 0) 0],
+                  { removals = [Removal k s (Mm z) (Mm z) (Mm r) (Mm 0) 0 Nothing],
                     solid = Nothing,
                     probe = Probe 1 s (Mm (r - 0.001)) (Mm (-1)) 0
                   }
@@ -54,8 +54,10 @@ data Scene = Scene {removals :: [Removal], solid :: Maybe [Segment], probe :: Pr
 
 answer :: Scene -> Maybe Point
 answer s = case solid s of
-  Nothing -> Stock.remaining index (StockSolid Everywhere (Mm 0)) (probe s)
-  Just outline -> Stock.solidOver (Mm 0) outline >>= \body -> Stock.remaining index body (probe s)
+  Nothing -> Stock.remaining index (StockSolid Everywhere (Mm (-9)) (Mm 0)) (probe s)
+  Just outline -> do
+    body <- Stock.solidOver (Mm (-9), Mm 0) outline
+    Stock.remaining index body (probe s)
   where
     index = Stock.removalsOf (removals s)
 
@@ -130,6 +132,7 @@ scene = do
           <*> (Mm <$> number 1 4)
           <*> pure (Mm 0)
           <*> pure 0
+          <*> pure Nothing
   count <- choose (0, 12)
   found <- mapM removal [0 .. count - 1]
   twins <- sublistOf found

@@ -24,7 +24,7 @@ syntax match partCutter /\(,\s*holder\s\([^,()]\|([^()]*)\)*\)\@<=\<height\ze\s/
 syntax match partCutter /\(\<turn(.*,\s*\)\@<=tip\>/
 syntax match partStatement /^\s*\zs\<units\ze\s\+\(mm\|in\)\>/
 syntax keyword partFunction region union difference offset_of outlines_of holes_of area_of centroid_of
-syntax keyword partFunction rectangle rounded slot polygon ellipse gear
+syntax keyword partFunction rectangle bar rounded slot polygon ellipse gear
 syntax match partUnit /\(^\s*units\s\+\)\@<=\(mm\|in\)\>/
 syntax keyword partRepeat for in if then else and or not
 syntax keyword partWalk cw ccw open closed
