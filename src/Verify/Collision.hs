@@ -112,7 +112,7 @@ cutters path =
 toolsOf :: ProofSubject -> Int -> [(Int, Cutter)]
 toolsOf subject@ProofSubject {path, program, frames}
   | Subject.isAligned subject = \n -> tool (fromMaybe 0 (planned Vector.!? (n - 1)))
-  | Just index <- SpindleTool.indicesByCommands program frames = tool . index
+  | Just indices <- SpindleTool.indicesByCommands program frames = concatMap tool . indices
   | otherwise = const (concatMap tool [0 .. Boxed.length all' - 1])
   where
     planned = SpindleTool.plannedIndices program
@@ -213,7 +213,7 @@ metal path = case Toolpath.stock (Toolpath.setup path) of
   Just (Located _ s) -> catMaybes [stockSolid s]
   Nothing
     | Toolpath.isFlat path -> []
-    | otherwise -> mapMaybe (uncurry Stock.solidOver) (concatMap outlinesOf (Toolpath.blocks path))
+    | otherwise -> mapMaybe (Stock.solidOver (endless, Mm 0)) (concatMap outlinesOf (Toolpath.blocks path))
 
 -- | Solid of a @stock@ statement.
 stockSolid :: Part.Solid -> Maybe StockSolid
@@ -224,18 +224,19 @@ stockSolid s =
   where
     segmentsOf = map Part.segment . NonEmpty.toList . Part.elements
 
--- | Heights and outlines of the holes and of the pocket of a block, each outline as its segments.
-outlinesOf :: Block -> [((Mm, Mm), [Segment])]
+-- | Bottom of a solid that has none: below a hole and below a pocket there is metal.
+endless :: Mm
+endless = Mm (-1 / 0)
+
+-- | Outlines of the holes and of the pocket of a block, each as its segments.
+outlinesOf :: Block -> [[Segment]]
 outlinesOf block = case block of
   Toolpath.Holing (Located _ d) _ ->
-    [ ((Part.bottom d, Mm 0), [circle (Part.drillRadius d) p])
+    [ [circle (Part.drillRadius d) p]
       | Located _ p <- NonEmpty.toList (Part.holes d)
     ]
-  Toolpath.Clearing {Toolpath.pocket = Located _ p, Toolpath.pass} ->
-    [ ( (Toolpath.atHeight pass, Mm 0),
-        concatMap segmentsOf (Part.contour (Part.wall p) : Part.islands p)
-      )
-    ]
+  Toolpath.Clearing {Toolpath.pocket = Located _ p} ->
+    [concatMap segmentsOf (Part.contour (Part.wall p) : Part.islands p)]
   _ -> []
   where
     segmentsOf = map Part.segment . NonEmpty.toList . Part.elements
@@ -271,10 +272,17 @@ rapidsIntoStock facts@Facts {subject, rapidFrames} solids =
 -- | Largest radius, and radius within which stock is surely removed, of a cutter in a motion. They
 -- differ only for conical cutters and blades.
 cuttingRadius, removingRadius :: Facts -> CutterMotion -> Cutter -> Mm
-cuttingRadius facts m c = max (radiusOf facts m) (if isConical c then tipRadius c else Mm 0)
+cuttingRadius facts m c = max (radiusIn facts m c) (if isConical c then tipRadius c else Mm 0)
 removingRadius facts m c
-  | isConical c = min (radiusOf facts m) (CutterBody.removalRadius c)
-  | otherwise = radiusOf facts m
+  | isConical c = min (radiusIn facts m c) (CutterBody.removalRadius c)
+  | otherwise = radiusIn facts m c
+
+-- | Radius of a cutter that may be in the spindle in a motion. If it is the only one, the frames
+-- show its radius.
+radiusIn :: Facts -> CutterMotion -> Cutter -> Mm
+radiusIn facts m c = case toolsIn facts (number m) of
+  [_] -> radiusOf facts m
+  _ -> cutterRadius c
 
 -- | Test that the radius of a tool is not the same at all heights.
 isConical :: Cutter -> Bool
@@ -304,7 +312,7 @@ bodiesInStock facts@Facts {subject}
     removals = removalsIn facts
     solids = case Toolpath.stock (Toolpath.setup (path subject)) of
       Just (Located _ s) -> catMaybes [stockSolid s]
-      Nothing -> [StockSolid Everywhere (Mm (-1 / 0)) (Mm 0)]
+      Nothing -> [StockSolid Everywhere endless (Mm 0)]
     hasBody c = isJust (fluteLength (body c)) || not (null (holder (body c)))
     bodyParts c =
       [Cylinder ShankPart (cutterRadius c) z | Just z <- [fluteLength (body c)]] <> holderParts c

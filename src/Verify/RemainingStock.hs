@@ -26,6 +26,7 @@ module Verify.RemainingStock
 where
 
 import Base.Quantity (Mm (..), minus, over, plus, times)
+import Data.Containers.ListUtils (nubOrdOn)
 import Data.List (nub, sort)
 import Data.List qualified as List
 import Data.Maybe (isJust, listToMaybe)
@@ -141,15 +142,21 @@ remaining removals solid given
     -- Below its bottom, the solid ends.
     probe = given {level = max (level given) (bottom solid)}
     gone = removalsNear removals probe
-    -- Middles of the pieces that no removal covers.
-    exposed =
-      map (Segment.at 0.5)
-        . flip (List.foldl' outsideArea) [loop (behind (times 0.5 hair)) | Gone _ _ behind <- gone]
-        . outside [(plus r (times 0.5 hair), [s]) | Gone r s _ <- gone]
+    -- Middles of the parts of segments that no removal covers.
+    exposed pieces =
+      [ Segment.at 0.5 s
+        | piece <- pieces,
+          s <- bare [piece] (filter (mayCover piece) gone)
+      ]
+    mayCover piece g = BoundingBox.meets (BoundingBox.ofSegment piece) (swept g)
+    bare pieces others = case others of
+      g : more | not (null pieces) -> bare (outsideArea (outside g pieces) g) more
+      _ -> pieces
     inner =
       exposed (concatMap inProbe (Distance.neighbourhood (minus (reach probe) hair) (path probe)))
-    around (Gone r s behind) =
-      exposed (concatMap inProbe (Distance.neighbourhood (plus r hair) s <> loop (behind hair)))
+    around g =
+      exposed . concatMap inProbe $
+        Distance.neighbourhood (plus (within' g) hair) (ofPath g) <> loop (behind g hair)
     rim = case base solid of
       Everywhere -> []
       Bounded boundary _ -> exposed (concatMap inProbe (BoxTree.within (boxOf probe) boundary))
@@ -184,21 +191,39 @@ isInside region p = case region of
   Bounded boundary box ->
     BoundingBox.distance p box <= Mm 0 && odd (WindingNumber.about p (BoxTree.toList boundary))
 
--- | Stock that a removal has removed at a level: its radius, the part of its path on which the tip
--- was low enough, and the corners of the area behind a turning tool, by their growth.
-data Gone = Gone Mm Segment (Mm -> [Point])
+-- | Stock that a removal has removed at a level.
+data Gone = Gone
+  { -- | radius of the tool
+    within' :: Mm,
+    -- | part of the path on which the tip was low enough
+    ofPath :: Segment,
+    -- | corners of the area behind a turning tool, by their growth
+    behind :: Mm -> [Point],
+    -- | box around all that is removed, with some room
+    swept :: BoundingBox
+  }
 
 -- | Removals before a probe that have removed stock in it at its level.
 removalsNear :: Removals -> Probe -> [Gone]
 removalsNear (Removals tree widest) probe =
-  [ Gone (width r) s (\growth -> cornersBehind growth s r)
-    | r <- BoxTree.within (BoundingBox.inflate widest (boxOf probe)) tree,
-      order r < at probe,
-      Just s <- [lowPart (limit r) r],
-      isJust (openSide r)
-        || distance (Distance.segments s (path probe)) < plus (width r) (reach probe)
+  [ Gone
+      { within' = width r,
+        ofPath = s,
+        behind = \growth -> cornersBehind growth s r,
+        swept = BoundingBox.inflate (plus (width r) hair) (boxOfRemoval r {track = s})
+      }
+    | (r, s) <- nubOrdOn (\(r, s) -> (width r, openSide r, s)) candidates
   ]
   where
+    -- The passes of a statement at several depths have the same paths.
+    candidates =
+      [ (r, s)
+        | r <- BoxTree.within (BoundingBox.inflate widest (boxOf probe)) tree,
+          order r < at probe,
+          Just s <- [lowPart (limit r) r],
+          isJust (openSide r)
+            || distance (Distance.segments s (path probe)) < plus (width r) (reach probe)
+      ]
     limit r = if tool r == byTool probe then level probe else minus (level probe) (point r)
 
 -- | Part of a removal's path on which the tip is at a height or below it. A vertical motion leaves
@@ -215,7 +240,7 @@ lowPart limit Removal {track, fromTip, toTip}
 
 -- | Test by bounds that removals cover a whole probe. True is certain, False proves nothing.
 isQuicklyCovered :: Probe -> [Gone] -> Bool
-isQuicklyCovered probe gone = any covers (nub (filter (>= reach probe) [r | Gone r _ _ <- gone]))
+isQuicklyCovered probe gone = any covers (nub (filter (>= reach probe) (map within' gone)))
   where
     covers r =
       let Mm slack = minus r (reach probe)
@@ -223,27 +248,25 @@ isQuicklyCovered probe gone = any covers (nub (filter (>= reach probe) [r | Gone
             slack
             pure
             (const True)
-            [s | Gone r' s _ <- gone, r' >= r]
+            [ofPath g | g <- gone, within' g >= r]
             (path probe)
 
--- | Parts of segments that are further away from all paths than the distance of each.
-outside :: [(Mm, [Segment])] -> [Segment] -> [Segment]
-outside others pieces = List.foldl' step pieces others
-  where
-    step left (d, paths) =
-      [ Segment.between a b s
-        | s <- left,
-          (a, b) <- Distance.uncovered d paths s,
-          times (b - a) (Segment.length s) > times 0.01 hair
-      ]
+-- | Parts of segments out of the reach of a tool on the path of its removal.
+outside :: Gone -> [Segment] -> [Segment]
+outside g pieces =
+  [ Segment.between a b s
+    | s <- pieces,
+      (a, b) <- Distance.uncovered (plus (within' g) (times 0.5 hair)) [ofPath g] s,
+      times (b - a) (Segment.length s) > times 0.01 hair
+  ]
 
--- | Parts of segments that are outside of an area with this outline. Without an outline, these are
--- all segments.
-outsideArea :: [Segment] -> [Segment] -> [Segment]
-outsideArea pieces outline
+-- | Parts of segments that are outside of the area behind a turning tool.
+outsideArea :: [Segment] -> Gone -> [Segment]
+outsideArea pieces g
   | null outline = pieces
   | otherwise = filter isOutside (concatMap cut pieces)
   where
+    outline = loop (behind g (times 0.5 hair))
     isOutside s = WindingNumber.about (Segment.at 0.5 s) outline == 0
     cut s =
       [ Segment.between a b s

@@ -61,9 +61,23 @@ plannedIndices program =
 toolsByCommands :: FrameProgram -> [Frame] -> Maybe (Int -> Mm)
 toolsByCommands = byCommands (Mm 0) Frame.cutterRadius
 
--- | Index of the tool in each frame of a tape, found as 'toolsByCommands' finds the radius.
-indicesByCommands :: FrameProgram -> [Frame] -> Maybe (Int -> Int)
-indicesByCommands = byCommands 0 Frame.toolIndex
+-- | Indices of the tools that may be in the spindle in each frame of a tape, found as
+-- 'toolsByCommands' finds the radius. Where the program plans no motion, the tool may be that of
+-- the motions before, or already that of the motions after.
+indicesByCommands :: FrameProgram -> [Frame] -> Maybe (Int -> [Int])
+indicesByCommands program frames = do
+  before <- byCommands 0 Frame.toolIndex program frames
+  Just (\n -> nub [before n, fromMaybe (before n) (after n)])
+  where
+    -- The tool of the first section with a motion from the section of the frame on.
+    after n = snd <$> IntMap.lookupLE n begins >>= listToMaybe
+    begins = IntMap.fromList (zip (1 : numbersOf frames) (suffixes (map indicesIn sections)))
+    suffixes list = case list of
+      [] -> repeat []
+      _ : rest -> concat list : suffixes rest
+    sections = divided (numbersOf (map Frame.frame planned)) planned
+    planned = Frame.plannedFrames program
+    indicesIn section = take 1 [Frame.toolIndex p | p <- section, Frame.isMoving (Frame.frame p)]
 
 -- | Property of the tool in each frame of a tape, by the number of the frame from 1. @without@ is
 -- the property if there is no tool, and @ofPlanned@ gives that of a planned frame.
