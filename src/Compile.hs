@@ -89,6 +89,7 @@ import Toolpath.Error qualified as Toolpath
 import Toolpath.FromPart qualified as Toolpath
 import Toolpath.Toolpath (Toolpath, isCompensated, withoutCuts)
 import Toolpath.Toolpath qualified as Toolpath
+import Verify.Collision qualified as Collision
 import Verify.ControlFault qualified as ControlFault
 import Verify.FromGcode qualified as FromGcode
 import Verify.FromPulses qualified as FromPulses
@@ -188,7 +189,7 @@ checkedFrames ::
 checkedFrames job loaded = checkEvaluated job (evaluate (values job) loaded)
 
 -- | Continues 'checkedFrames' after 'evaluate'. The result includes the errors and warnings of
--- evaluation.
+-- evaluation, and the collisions of the tools with stock and clamps.
 checkEvaluated ::
   Job ->
   Result Report Report (Checked.Program, Part) ->
@@ -197,7 +198,14 @@ checkEvaluated Job {machinesFor} evaluated =
   (evaluated >>= plan) `thenSound` \analysis@Analysis {part, path} ->
     (analysis,) <$> (machinesFor part path >>= traverse (made path))
   where
-    made path machine = (machine,) . program <$> punch machine path
+    made path machine = do
+      Punched {program} <- punch machine path
+      failing (collisions path machine program) (machine, program)
+    collisions path machine program =
+      Proof.findingReports
+        (Toolpath.unit path)
+        machine
+        (Collision.inProgram machine path program)
 
 -- | Makes the tapes one after the other. The toolpath is freed before the last tape is verified.
 makeTapes :: Verification -> Toolpath -> [Machine] -> Result Report Report [Compiled]

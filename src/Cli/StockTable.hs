@@ -13,10 +13,12 @@ import Cli.Table qualified as Table
 import Data.Foldable (toList)
 import Data.Maybe (maybeToList)
 import Data.Text (Text)
+import Draw.Page qualified as Page
 import Frame.MoveTime (moveTime)
 import Geometry.Index.BoundingBox (BoundingBox (BoundingBox))
 import Geometry.Index.BoundingBox qualified as BoundingBox
 import Geometry.Tolerance qualified as Tolerance
+import Geometry.Vec qualified as Vec
 import Machine.Machine (Machine)
 import Part.Part (Cutter (body, cutterRadius), HolderCylinder (..), Solid (..), ToolBody (..))
 import Part.Part qualified as Part
@@ -29,16 +31,20 @@ import Toolpath.Toolpath qualified as Toolpath
 tables :: LengthUnit -> Maybe Machine -> Toolpath -> [Text]
 tables unit machine path =
   [stockTable unit machine path s | Located _ s <- maybeToList (stock (setup path))]
-    <> avoidedTable unit (map value (avoided (setup path)))
+    <> avoidedTable unit (Toolpath.isTurned path) (map value (avoided (setup path)))
     <> toolTable unit (toolsOf path)
 
 -- | The volumes of the stock, and the time of the moves at feed that reach below its top.
 stockTable :: LengthUnit -> Maybe Machine -> Toolpath -> Solid -> Text
 stockTable unit machine path solid =
-  "Stock " <> heightsText unit solid <> "\n\n" <> Table.columns [ToLeft, ToRight, ToLeft] rows
+  "Stock " <> (if Toolpath.isTurned path then "of the turned part" else heightsText unit solid)
+    <> "\n\n"
+    <> Table.columns [ToLeft, ToRight, ToLeft] rows
   where
     rows
       | isEndless solid && not (Toolpath.isTurned path) = [inCut]
+      | Toolpath.isTurned path && isBelowAxis =
+        [["volume", "", "the stock goes below the axis"], inCut]
       | otherwise = case StockLayer.stockLayers path solid of
         Left _ -> [["volume removed", "", "rounding decides"], inCut]
         Right layers ->
@@ -49,6 +55,7 @@ stockTable unit machine path solid =
                 volumeRow "volume left" left,
                 inCut
               ]
+    isBelowAxis = let BoundingBox _ low _ _ = extentOf solid in low < -1e-6
     inCut = ["time in the cut", let Seconds s = time in Decimal.fixed 1 s, "s"]
     time =
       total
@@ -72,25 +79,28 @@ heightsText unit solid
     "from " <> Decimal.inUnit unit (lowest solid) <> " to " <> Decimal.inUnit unit (highest solid)
 
 -- | The extents of the avoided solids.
-avoidedTable :: LengthUnit -> [Solid] -> [Text]
-avoidedTable unit solids =
+avoidedTable :: LengthUnit -> Bool -> [Solid] -> [Text]
+avoidedTable unit isTurned solids =
   [ "Avoided by all tools\n\n"
       <> Table.columns
-        (replicate 6 ToRight)
-        (["x from", "to", "y from", "to", "z from", "to"] : map row solids)
+        (if isTurned then replicate 4 ToRight else replicate 6 ToRight)
+        (heading : map row solids)
     | not (null solids)
   ]
   where
+    heading = ["x from", "to", "y from", "to"] <> (if isTurned then [] else ["z from", "to"])
     row s =
-      [fixed (Mm a) | a <- extent s]
-        <> if isEndless s then ["all", ""] else map fixed [lowest s, highest s]
+      let BoundingBox x y x' y' = extentOf s
+       in map (fixed . Mm) [x, x', y, y']
+            <> if isTurned then [] else heightsOf s
+    heightsOf s = if isEndless s then ["all", ""] else map fixed [lowest s, highest s]
     fixed = Decimal.fixedIn unit 3
-    extent s = case [ BoundingBox.ofSegment (Part.segment e)
-                      | c <- outlines s,
-                        e <- toList (Part.elements c)
-                    ] of
-      [] -> []
-      b : bs -> let BoundingBox x y x' y' = foldr BoundingBox.union b bs in [x, x', y, y']
+
+-- | Bounding box of the base of a solid.
+extentOf :: Solid -> BoundingBox
+extentOf s = case [Page.extent (Part.segment e) | c <- outlines s, e <- toList (Part.elements c)] of
+  [] -> BoundingBox.ofPoints (Vec.point 0 0) []
+  b : bs -> foldr BoundingBox.union b bs
 
 -- | The tools of a toolpath that have sizes of a body, each with its number if it has one.
 toolsOf :: Toolpath -> [(Maybe Int, Cutter)]

@@ -48,13 +48,16 @@ entries styles classes scene =
 -- | Entries for contours and areas.
 areaEntries :: LineStyles -> [CutClass] -> Scene -> [(Bool, Point -> [Svg], Text)]
 areaEntries styles classes Scene {shapes, cuts, restMaterial, stock} =
-  [ (any ((== Unknown) . materialSide) shapes, line (contourPen styles), "contour"),
-    ( any ((/= Unknown) . materialSide) shapes,
+  [ ( any ((== Unknown) . materialSide) shapes || not (null shapes || isTinted),
+      line (contourPen styles),
+      "contour"
+    ),
+    ( isTinted && any ((/= Unknown) . materialSide) shapes,
       \p -> tint (materialColour styles) p <> line (contourPen styles) p,
       "part"
     ),
     (not (null restMaterial), surface (restColour styles), "material left"),
-    ( not (null cuts),
+    ( not (null cuts) && (isPlain || isTinted),
       \p ->
         tint (sweptColour styles) p <> (if isPlain then line (pathPen styles) p else []),
       if isPlain then "cutter path" else "swept"
@@ -74,7 +77,8 @@ areaEntries styles classes Scene {shapes, cuts, restMaterial, stock} =
   ]
   where
     isPlain = map caption classes == ["cutter path"]
-    tint = if StockPlot.hasStock stock then \_ _ -> [] else surface
+    isTinted = not (StockPlot.hasStock stock)
+    tint = if isTinted then surface else \_ _ -> []
     surface colour p =
       [ Svg.rectangle
           (Pen "none" 0 [])

@@ -167,13 +167,16 @@ highestClearance path = case clearances path of
 -- | Description of a tool: its kind and its diameter, or the radius of its nose.
 cutterText :: LengthUnit -> Cutter -> Text
 cutterText unit cutter = case Part.kind cutter of
-  Part.MillingCutter -> "mill, diameter " <> diameter
+  Part.MillingCutter -> "mill, diameter " <> diameter <> bodyText
   Part.ConeCutter -> "cone, diameter " <> diameter
   Part.DovetailCutter -> "dovetail, diameter " <> diameter
   Part.BladeCutter _ -> "blade, diameter " <> diameter
-  Part.DrillingCutter -> "drill, diameter " <> diameter
+  Part.DrillingCutter -> "drill, diameter " <> diameter <> bodyText
   Part.TurningCutter -> "turning tool, nose radius " <> inUnit (Part.cutterRadius cutter) <> tip
   where
     tip = maybe "" (\n -> ", tip " <> Decimal.whole n) (Part.tip cutter)
+    bodyText =
+      maybe "" ((", flutes " <>) . inUnit) (Part.fluteLength (Part.body cutter))
+        <> maybe "" ((", stick-out " <>) . inUnit) (Part.stickOut (Part.body cutter))
     diameter = inUnit (times 2 (Part.cutterRadius cutter))
     inUnit = Decimal.inUnit unit

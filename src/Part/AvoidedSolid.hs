@@ -12,7 +12,7 @@ module Part.AvoidedSolid
 where
 
 import Base.Quantity (Mm (..), minus, plus)
-import Data.List (foldl')
+import Data.List (foldl', sort)
 import Data.List.NonEmpty qualified as NonEmpty
 import Geometry.Distance qualified as Distance
 import Geometry.Index.BoundingBox (BoundingBox)
@@ -46,16 +46,30 @@ boundingBox :: AvoidedSolid -> BoundingBox
 boundingBox = BoxTree.boundingBox . boundary
 
 -- | The depth to which a cylinder enters the base of a solid while its axis moves along a path, in
--- mm. It is at most 0 if the cylinder stays beside the solid, and then it may be any such number.
+-- mm. If the axis enters it, the depth is at least this, and it is measured at the ends of the path
+-- and in the middle of each part inside. It is at most 0 if the cylinder stays beside the solid;
+-- then it may be any such number.
 depthOf :: AvoidedSolid -> Mm -> Segment -> Mm
-depthOf solid r path
-  | isInside = plus r (distanceTo (BoxTree.toList (boundary solid)))
-  | otherwise = minus r (distanceTo (BoxTree.within around (boundary solid)))
+depthOf solid r path = case filter isInside (map (`Segment.at` path) middles) of
+  [] -> minus r (nearest [Distance.distance (Distance.segments path s) | s <- near])
+  inside -> plus r (maximum [nearest (map (Distance.toPoint p) edges) | p <- ends' <> inside])
   where
-    distanceTo = foldl' min (Mm (1 / 0)) . map (Distance.distance . Distance.segments path)
-    around = BoundingBox.inflate r (BoundingBox.ofSegment path)
-    isInside =
-      odd (WindingNumber.about (Segment.start path) (BoxTree.toList (boundary solid)))
+    ends' = filter isInside [Segment.start path, Segment.end path]
+    edges = BoxTree.toList (boundary solid)
+    near = BoxTree.within (BoundingBox.inflate r (BoundingBox.ofSegment path)) (boundary solid)
+    nearest = foldl' min (Mm (1 / 0))
+    isInside p = odd (WindingNumber.about p edges)
+    -- The middles of the parts into which the boundary cuts the path, as fractions.
+    middles = zipWith (\a b -> (a + b) / 2) (0 : cuts) (cuts <> [1])
+    cuts =
+      sort
+        [ t
+          | s <- near,
+            p <- Distance.intersections path s,
+            let t = Segment.fraction path p,
+            t > 0,
+            t < 1
+        ]
 
 -- | The height at which a tool moves over all solids that its way enters: the clearance height
 -- above the highest of them. Nothing if it enters none, or only those that have no top. @path@ is

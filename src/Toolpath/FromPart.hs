@@ -11,7 +11,7 @@ module Toolpath.FromPart
   )
 where
 
-import Base.Quantity (Mm (..))
+import Base.Quantity (Mm (..), minus)
 import Base.Region (Located (..), Region (..))
 import Base.Result (Result (..))
 import Control.Monad (foldM)
@@ -24,6 +24,7 @@ import Data.Maybe (fromMaybe, isJust, listToMaybe, mapMaybe)
 import Data.Vector qualified as Vector
 import Geometry.Carrier qualified as Carrier
 import Geometry.ElementCarrier (ElementCarrier (..))
+import Geometry.Tolerance qualified as Tolerance
 import Geometry.Vec qualified as Vec
 import Part.Part
   ( Contour (elements),
@@ -67,7 +68,7 @@ toToolpath part = case (Part.start part, Part.operations part) of
     case collect (firstState part (value begin)) (FeedRate.withRates operations) of
       ([], blocks) ->
         let setup = setupOf part
-            over = MoveOver.overSolids (Part.avoided part) (Toolpath.withTools setup blocks)
+            over = MoveOver.overSolids (Toolpath.avoided setup) (Toolpath.withTools setup blocks)
             path = Toolpath begin over (turns part) setup (Part.unit part)
             errors = Intrusion.intrusions path
          in Result
@@ -89,9 +90,14 @@ setupOf part =
       Toolpath.workOffset = Part.workOffset part,
       Toolpath.programNumber = Part.programNumber part,
       Toolpath.safeHeight = Part.safeHeight part,
-      Toolpath.stock = Part.stock part,
-      Toolpath.avoided = Part.avoided part
+      Toolpath.stock = fmap asTurned <$> Part.stock part,
+      Toolpath.avoided = map (fmap asTurned) (Part.avoided part)
     }
+  where
+    -- On a lathe all moves are in one plane, and solids have no heights.
+    asTurned s
+      | turns part = s {Part.lowest = minus (Mm 0) Tolerance.reach, Part.highest = Tolerance.reach}
+      | otherwise = s
 
 -- | True if the part is turned on a lathe: a statement turns, or there is a turning tool.
 turns :: Part -> Bool

@@ -11,6 +11,7 @@
 -- motions in the plane. A motion whose height changes counts by its lowest height.
 module Verify.Collision
   ( collisions,
+    inProgram,
   )
 where
 
@@ -23,7 +24,7 @@ import Data.List.NonEmpty qualified as NonEmpty
 import Data.Maybe (catMaybes, fromMaybe, isJust, listToMaybe, mapMaybe)
 import Data.Vector qualified as Boxed
 import Data.Vector.Unboxed qualified as Vector
-import Frame.Frame (Frame)
+import Frame.Frame (Frame, FrameProgram)
 import Frame.Frame qualified as Frame
 import Geometry.Carrier (Circle (Circle), Sense (CounterClockwise))
 import Geometry.Distance.Fast qualified as FastDistance
@@ -35,6 +36,8 @@ import Geometry.Tolerance qualified as Tolerance
 import Geometry.Vec qualified as Vec
 import Machine.Machine (Axis (Z), Machine)
 import Machine.Machine qualified as Machine
+import Machine.ProgramForm (RapidPath (BoxPath))
+import Machine.ProgramForm qualified as ProgramForm
 import Part.AvoidedSolid qualified as AvoidedSolid
 import Part.CutterBody qualified as CutterBody
 import Part.Part (Cutter (..), HolderCylinder (..), ToolBody (..))
@@ -65,6 +68,9 @@ data Facts = Facts
     -- | tools that may be in the spindle in a frame, each with its index
     toolsIn :: Int -> [(Int, Cutter)],
     rapidFrames :: IntSet,
+    -- | distance of the points from a motion's line through which the control may lead a rapid move
+    -- whose axes arrive one after the other; 0 for other motions
+    strays :: CutterMotion -> Mm,
     -- | depth of a contact, in the plane, that does not count
     allowed :: Mm,
     -- | the same along z
@@ -89,13 +95,42 @@ collisions subject radiusOf =
         { subject,
           radiusOf,
           toolsIn = toolsOf subject,
-          rapidFrames = rapidsOf subject,
+          rapidFrames,
+          strays = \m ->
+            if hasBoxPaths && IntSet.member (number m) rapidFrames
+              then halfWidth (segment m)
+              else Mm 0,
           allowed =
             plus
               (ForeignCut.largestTolerance (path subject))
               (Machine.planeResolution (machine subject)),
           allowedHeight = Machine.resolutionOf (machine subject) Z
         }
+    rapidFrames = rapidsOf subject
+    hasBoxPaths =
+      fmap ProgramForm.rapidPath (Machine.programForm (machine subject)) == Just BoxPath
+
+-- | Distance of the corners of a line's box from the line. All of the box is so near to the line.
+halfWidth :: Segment -> Mm
+halfWidth s = if l > 0 then Mm (abs (dx * dy) / l) else Mm 0
+  where
+    (a, b) = (Segment.start s, Segment.end s)
+    (dx, dy) = (Vec.x b - Vec.x a, Vec.y b - Vec.y a)
+    Mm l = Vec.distance a b
+
+-- | Findings for the planned frames of a program that gives stock, solids to avoid, or bodies of
+-- tools. They need no tape, so an editor can show them. Empty for any other program.
+inProgram :: Machine -> Toolpath -> FrameProgram -> [Finding]
+inProgram machine path program
+  | isAsked = collisions subject (Subject.toolIn subject [])
+  | otherwise = []
+  where
+    subject = Subject.subjectOf machine path program (map Frame.frame (Frame.plannedFrames program))
+    setup = Toolpath.setup path
+    isAsked =
+      isJust (Toolpath.stock setup)
+        || not (null (Toolpath.avoided setup))
+        || any ((/= Part.plainBody) . body) (catMaybes (cutters path))
 
 -- Tools -------------------------------------------------------------------------------------------
 
@@ -151,13 +186,14 @@ intoAvoided :: Facts -> Located Part.Solid -> [Collision]
 intoAvoided facts (Located region solid) =
   [ collisionOf facts m cylinder low top (AvoidedSolid region top deep r)
     | m <- BoxTree.within (BoundingBox.inflate widest (AvoidedSolid.boundingBox ready)) index,
-      cylinder@(Cylinder _ r above) <- cylindersOf m,
+      cylinder@(Cylinder _ r0 above) <- cylindersOf m,
+      let r = plus r0 (strays m),
       Just (low, part) <- [lowPart (minus (minus top above) allowedHeight) m],
       let deep = AvoidedSolid.depthOf ready r part,
       deep > allowed
   ]
   where
-    Facts {subject, radiusOf, toolsIn, allowed, allowedHeight} = facts
+    Facts {subject, radiusOf, toolsIn, strays, allowed, allowedHeight} = facts
     index = motionIndex subject
     ready = AvoidedSolid.prepared solid
     top = Part.highest solid
@@ -167,7 +203,8 @@ intoAvoided facts (Located region solid) =
           | (_, c) <- toolsIn (number m),
             CutterBody.Cylinder r above <- CutterBody.cylindersOf c
         ]
-    widest = foldl' max (Mm 0) [r | m <- motions subject, Cylinder _ r _ <- cylindersOf m]
+    widest =
+      foldl' max (Mm 0) [plus r (strays m) | m <- motions subject, Cylinder _ r _ <- cylindersOf m]
 
 -- | Collision of a part of the tool in a motion with a body: the lowest height of the tip, and the
 -- top of the body.
@@ -213,7 +250,10 @@ metal path = case Toolpath.stock (Toolpath.setup path) of
   Just (Located _ s) -> catMaybes [stockSolid s]
   Nothing
     | Toolpath.isFlat path -> []
-    | otherwise -> mapMaybe (Stock.solidOver (endless, Mm 0)) (concatMap outlinesOf (Toolpath.blocks path))
+    | otherwise ->
+      mapMaybe
+        (Stock.solidOver (endless, Mm 0))
+        (concatMap outlinesOf (Toolpath.blocks path))
 
 -- | Solid of a @stock@ statement.
 stockSolid :: Part.Solid -> Maybe StockSolid
@@ -261,9 +301,9 @@ rapidsIntoStock facts@Facts {subject, rapidFrames} solids =
     contacts k m =
       [ (low, Stock.top solid, p)
         | (t, c) <- toolsIn facts (number m),
-          let r = minus (cuttingRadius facts m c) (allowed facts),
+          let r = minus (plus (cuttingRadius facts m c) (strays facts m)) (allowed facts),
           solid <-
-            BoxTree.within (BoundingBox.inflate (cuttingRadius facts m c) (Motion.box m)) index,
+            BoxTree.within (BoundingBox.inflate (plus r (allowed facts)) (Motion.box m)) index,
           Just (low, part) <- [lowPart (minus (Stock.top solid) (allowedHeight facts)) m],
           Just p <-
             [Stock.remaining removals solid (Probe k part r (plus low (allowedHeight facts)) t)]

@@ -13,6 +13,7 @@ module Verify.Proof
     Refusal (..),
     isProven,
     toReports,
+    findingReports,
     frameOf,
   )
 where
@@ -236,7 +237,11 @@ isProven proof = null (findings proof) && null (controlFindings proof)
 
 -- | Reports of all findings, in their order.
 toReports :: LengthUnit -> Machine -> Proof -> [Report]
-toReports unit machine proof = map (toReport unit machine) (findings proof)
+toReports unit machine proof = findingReports unit machine (findings proof)
+
+-- | Reports of findings, in their order.
+findingReports :: LengthUnit -> Machine -> [Finding] -> [Report]
+findingReports unit machine = map (toReport unit machine)
 
 -- | Number, from 1, of the frame that a finding is about. Nothing if it is about a frame that is
 -- missing.

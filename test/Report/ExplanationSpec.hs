@@ -110,10 +110,7 @@ raisedElsewhere =
         "E0739",
         "E0740",
         "E0741",
-        "E0742",
-        "E0743",
-        "E0744",
-        "E0745"
+        "E0742"
       ]
     ),
     ( "files and the command line",
