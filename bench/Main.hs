@@ -46,7 +46,7 @@ run page folder options = do
     place "differences" (Text.unlines notes)
   when ("stages" `elem` parts) $ Whole.staged tools most seconds >>= place "stages"
   when ("mills" `elem` parts) $ Whole.doubled tools >>= place "mills"
-  when ("stock" `elem` parts) $ Whole.stocked tools >>= place "stock"
+  when ("stock" `elem` parts) $ Whole.stocked tools (folder </> "programs") >>= place "stock"
   when ("controllers" `elem` parts) $
     Peer.command 600 [option "pulses" "pulses"] >>= either (die . Text.unpack) (place "controllers")
   forM_ (lookup "before" options) $ \earlier -> do

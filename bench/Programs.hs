@@ -290,9 +290,11 @@ plate hasStock n =
 circles :: Int -> Text
 circles n =
   header "circles" 2 100
-    <> "let all = union([region(circle((5 * i, 5 * j), 3)) for i in 0.."
+    <> "clearance 5 mm\nlet line_at(j) = union([region(circle((5 * i, 5 * j), 3)) for i in 0.."
     <> Decimal.whole (side - 1)
-    <> "])\n"
+    <> "])\nlet all = union([line_at(j) for j in 0.."
+    <> Decimal.whole (side - 1)
+    <> "])\nfor c in outlines_of(all) { mill c outside { depth 1 mm rest allowed } }\n"
   where
     side = ceiling (sqrt (fromIntegral n :: Double)) :: Int
 

@@ -159,38 +159,65 @@ parsed out = do
 doubled :: Tools -> IO Text
 doubled tools =
   Table.table ["program", "statements", "path", "of half as many", "sum"] . concat
-    <$> mapM (growing tools "lkp-01f" [16, 32, 64] "path") [OneContour, Nested]
-
--- | Programs with stock and clamps, the same without, and unions: the stage that this costs most.
-stocked :: Tools -> IO Text
-stocked tools =
-  Table.table ["program", "size", "stage", "of half as many", "sum"] . concat
-    <$> sequence
-      [ growing tools "iso6983" [125, 250, 500] "verify" Plate,
-        growing tools "iso6983" [125, 250, 500] "verify" PlainPlate,
-        growing tools "iso6983" [250, 500, 1000] "part" Circles
-      ]
-
--- | The rows of programs of one kind in several sizes: the milliseconds of a stage, their ratio to
--- those of the size before, and those of all stages. The figures are the medians of five runs.
-growing :: Tools -> String -> [Int] -> Text -> Kind -> IO [Table.Row]
-growing tools machine sizes stage kind = do
-  turns' <- mapM (const (mapM run sizes)) [1 .. 5 :: Int]
-  let medians = fmap middles . sequence <$> transpose turns'
-  pure (zipWith3 row sizes (Left "" : medians) medians)
+    <$> mapM rowsOf [OneContour, Nested]
   where
-    row :: Int -> Either Text Staged -> Either Text Staged -> Table.Row
-    row n half outcome =
+    rowsOf kind = do
+      turns' <- mapM (const (mapM (run kind) [16, 32, 64])) [1 .. 5 :: Int]
+      let medians = fmap middles . sequence <$> transpose turns'
+          halves = Left "" : medians
+      pure (zipWith3 (row kind) [16, 32, 64] halves medians)
+    row :: Kind -> Int -> Either Text Staged -> Either Text Staged -> Table.Row
+    row kind n half outcome =
       [Programs.name kind, Decimal.whole n] <> case outcome of
         Left why -> [Text.take 80 why, "", ""]
         Right s ->
-          [ Table.number (of' s),
-            either (const "") (\h -> Decimal.fixed 2 (of' s / of' h)) half,
+          [ Table.number (path s),
+            either (const "") (\h -> Decimal.fixed 2 (path s / path h)) half,
             Table.number (total s)
           ]
-    of' s = sum [t | (name, t) <- stages s, name == stage]
-    run :: Int -> IO (Either Text Staged)
-    run n = (>>= parsed) <$> Peer.command 300 [timer tools, show kind, show n, machine]
+    path s = sum [t | ("path", t) <- stages s]
+    run :: Kind -> Int -> IO (Either Text Staged)
+    run kind n =
+      (>>= parsed) <$> Peer.command 300 [timer tools, show kind, show n, "lkp-01f"]
+
+-- Stock -------------------------------------------------------------------------------------------
+
+-- | Plates with stock and clamps and the same without, and unions of circles: the seconds that
+-- @compile@, @verify@ and @report@ take, and the ratio of the first one to that of half the size.
+stocked :: Tools -> FilePath -> IO Text
+stocked tools folder = do
+  createDirectoryIfMissing True folder
+  Table.table ["program", "size", "compile, s", "of half as many", "verify, s", "report, s"]
+    . concat
+    <$> mapM
+      rowsOf
+      [(Plate, [125, 250, 500]), (PlainPlate, [125, 250, 500]), (Circles, [256, 529, 1024])]
+  where
+    rowsOf (kind, sizes) = do
+      measured <- mapM (measure kind) sizes
+      pure (zipWith3 (row kind) sizes (Left "" : map compiling measured) measured)
+    compiling (c, _, _) = c
+    row kind n half (compiled, verified, reported) =
+      [ Programs.name kind,
+        Decimal.whole n,
+        cell compiled,
+        either (const "") (Decimal.fixed 2) ((/) <$> compiled <*> half),
+        cell verified,
+        cell reported
+      ]
+    cell = either (const "–") Table.number
+    measure kind n = do
+      Text.writeFile source (Programs.text (Programs.written kind n))
+      compiled <- timed ["compile", source, "-o", result]
+      verified <- timed ["verify", source, result]
+      reported <- timed ["report", source]
+      pure (compiled, verified, reported)
+    (source, result) = (folder </> "stock.part", folder </> "stock.ngc")
+    -- The median of five runs.
+    timed :: [String] -> IO (Either Text Double)
+    timed arguments =
+      fmap (Peer.middle . map fst) . sequence
+        <$> mapM (const (costOf tools 60 (partc tools : arguments))) [1 .. 5 :: Int]
 
 -- The state before -------------------------------------------------------------------------------
 
@@ -280,6 +307,14 @@ besideInterpreter tools folder programs allowed = do
 -- | Seconds and peak kilobytes of a command, or the reason of its failure.
 type Cost = Either Text (Double, Double)
 
+-- | The cost of a command that may take this many seconds.
+costOf :: Tools -> Int -> [String] -> IO Cost
+costOf tools allowed arguments = (>>= costs) <$> Peer.command allowed (cost tools <> arguments)
+  where
+    costs out = case map (readMaybe . Text.unpack) (Text.words out) of
+      [Just s, Just k] -> Right (s, k)
+      _ -> Left ("not understood: " <> Text.take 80 out)
+
 -- | Runs partc and the interpreter on one program. The result is True if partc failed, with the row
 -- of the table.
 compiledAndInterpreted :: Tools -> FilePath -> Double -> Kind -> Int -> IO (Bool, Table.Row)
@@ -312,11 +347,7 @@ compiledAndInterpreted tools folder allowed kind n = do
         (Left _, _) -> pure (Left "nothing to read")
         (_, Nothing) -> pure (Left "rs274 is not installed")
       pure (compiled, judged)
-    timed :: [String] -> IO Cost
-    timed arguments = (>>= costs) <$> Peer.command (round allowed) (cost tools <> arguments)
-    costs out = case map (readMaybe . Text.unpack) (Text.words out) of
-      [Just s, Just k] -> Right (s, k)
-      _ -> Left ("not understood: " <> Text.take 80 out)
+    timed = costOf tools (round allowed)
     shownSeconds = either id (\runs -> Table.number (medianSeconds runs) <> " s")
 
 medianSeconds :: [(Double, Double)] -> Double

@@ -39,7 +39,7 @@ toReport unit mistake = case mistake of
       { message = ["It is " <> inUnit top <> ", and the bottom is " <> inUnit bottom <> "."],
         others = [Label lower "this is the bottom"],
         fixes = [Fix.proposed (Fix.swap "Exchange the two heights." lower region) | top /= bottom],
-        hints = ["The first height is that of the bottom: from -20 to 0."]
+        hints = ["The first height is that of the bottom, the second one that of the top."]
       }
   SizeTwice region word first ->
     (at region "E0372" ("this tool has " <> word <> " twice"))
@@ -58,11 +58,11 @@ toReport unit mistake = case mistake of
       }
   HolderWithoutStickOut region ->
     (at region "E0372" "a holder needs the stick-out of the tool")
-      { hints = ["Write for example stickout 30 before it: the length from the tip to the holder."]
+      { hints = ["Write for example stickout 30 mm: the length from the tip to the holder."]
       }
   EndlessCylinder region ->
     (at region "E0372" "another cylinder of the holder follows, so this one needs a height")
-      { hints = ["Write for example holder 32 height 25."]
+      { hints = ["Write for example holder 32 mm height 25 mm."]
       }
   SafeBelowSolid region safe there top ->
     (at region "E0373" "the safe height is below the top of a solid that the program avoids")

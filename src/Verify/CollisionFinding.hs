@@ -46,7 +46,7 @@ data ToolPart
 -- | Body that a tool touches.
 data Contact
   = -- | a solid that the program avoids: the region of its statement, its top, how deep the tool
-    -- enters it, and the distance from it that the tool's axis has to keep
+    -- enters it, and the distance from it that the cutter's centre has to keep
     AvoidedSolid Region Mm Mm Mm
   | -- | stock: a point at which it still reaches above the lower end of the part
     StockLeft Point
@@ -59,10 +59,7 @@ toReport unit c = case contact c of
     (wrong "E0743" (word <> " enters what the program avoids, by " <> inUnit deep))
       { others = [Label region (extent top)],
         message = tipSentence,
-        hints =
-          [ "The move passes " <> over' top <> "beside it if the tool's axis keeps " <> inUnit away
-              <> " away from it."
-          ]
+        hints = [wayPast unit c top away]
       }
   StockLeft p -> case toolPart c of
     CutterPart ->
@@ -86,13 +83,22 @@ toReport unit c = case contact c of
     extent top
       | isEndless c = "this has no upper end"
       | otherwise = "this reaches up to " <> inUnit top
-    over' top
-      | isEndless c = ""
-      | otherwise =
-        "over it if the tip is at " <> inUnit (minus top (partAbove c)) <> " or higher, and "
     tipSentence =
       ["The tip of the tool comes down to " <> inUnit (tipHeight c) <> "." | not (isEndless c)]
     word = partWord (toolPart c) <> " in frame " <> number'
+
+-- | Advice after a collision with a solid: the height above its top, and the distance @away@ from
+-- it that the cutter's centre has to keep.
+wayPast :: LengthUnit -> Collision -> Mm -> Mm -> Text
+wayPast unit c top away =
+  "The move passes " <> over <> "beside it if the cutter's centre keeps " <> inUnit away
+    <> " away from it."
+  where
+    over
+      | isEndless c = ""
+      | otherwise =
+        "over it if the tip is at " <> inUnit (minus top (partAbove c)) <> " or higher, and "
+    inUnit = Decimal.inUnit unit
 
 -- | Words for a part of a tool.
 partWord :: ToolPart -> Text

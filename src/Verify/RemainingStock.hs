@@ -27,9 +27,10 @@ where
 
 import Base.Quantity (Mm (..), minus, over, plus, times)
 import Data.Containers.ListUtils (nubOrdOn)
-import Data.List (nub, sort)
+import Data.List (minimumBy, nub, sort)
 import Data.List qualified as List
 import Data.Maybe (isJust, listToMaybe)
+import Data.Ord (comparing)
 import Geometry.Distance (ClosestPoint (distance))
 import Geometry.Distance qualified as Distance
 import Geometry.Distance.Fast qualified as FastDistance
@@ -131,13 +132,15 @@ data Probe = Probe
     byTool :: Int
   }
 
--- | Point of the solid's stock that remains in the probe just above its level. Nothing if there is
--- none.
+-- | Point of the solid's stock that remains in the probe just above its level, if possible near the
+-- beginning of its path. Nothing if there is none.
 remaining :: Removals -> StockSolid -> Probe -> Maybe Point
 remaining removals solid given
   | reach probe <= hair || top solid <= level probe || not (meetsBase solid probe) = Nothing
   | isQuicklyCovered probe gone = Nothing
-  | otherwise = listToMaybe (filter (isInside (base solid)) (inner <> concatMap around gone) <> rim)
+  | otherwise = case filter (isInside (base solid)) inner of
+    [] -> listToMaybe (filter (isInside (base solid)) (concatMap around gone) <> rim)
+    ps -> Just (minimumBy (comparing (Vec.distance (Segment.start (path probe)))) ps)
   where
     -- Below its bottom, the solid ends.
     probe = given {level = max (level given) (bottom solid)}
