@@ -70,7 +70,7 @@ indicesByCommands program frames = do
   Just (\n -> nub [before n, fromMaybe (before n) (after n)])
   where
     -- The tool of the first section with a motion from the section of the frame on.
-    after n = snd <$> IntMap.lookupLE n begins >>= listToMaybe
+    after n = IntMap.lookupLE n begins >>= listToMaybe . snd
     begins = IntMap.fromList (zip (1 : numbersOf frames) (suffixes (map indicesIn sections)))
     suffixes list = case list of
       [] -> repeat []
