@@ -72,7 +72,7 @@ instructions machine path = concat (arranged (zip blocks ofBlocks))
     ofBlocks =
       zipWith
         (\t -> map (withTool t))
-        (toolIndices blocks)
+        (Toolpath.toolIndices blocks)
         (zipWith4 (ofBlock machine) [0 ..] passNumbers (wallsOf blocks) blocks)
     withTool t instruction = case instruction of
       Run {} -> instruction {toolIndex = t}
@@ -102,14 +102,6 @@ byState machine states@(before, now) list = case list of
         | ws <- CommandState.between machine before now
       ]
     onlyReports made = [Words r t {Command.numbers = []} | Words r t <- made]
-
--- | Count of tool changes before each block.
-toolIndices :: [Block] -> [Int]
-toolIndices = scanl (\n b -> if isChange b then n + 1 else n) 0
-  where
-    isChange b = case b of
-      Toolpath.Commanding (Located _ (Part.ChangeTool _ _)) -> True
-      _ -> False
 
 -- | Walls beside the passes of a toolpath, for each block. The passes of a statement share them.
 wallsOf :: [Block] -> [Walls]

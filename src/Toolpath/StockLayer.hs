@@ -14,7 +14,6 @@ module Toolpath.StockLayer
 where
 
 import Base.Quantity (Mm (..), Rad (..), minus, plus)
-import Base.Region (Located (..))
 import Data.Containers.ListUtils (nubOrd)
 import Data.List.NonEmpty (NonEmpty (..))
 import Data.List.NonEmpty qualified as NonEmpty
@@ -111,17 +110,14 @@ sweeps path =
 turnedWays :: Toolpath -> [(Maybe OpenSide, Mm, Segment)]
 turnedWays path =
   [ (Toolpath.openSideOf path k, CutterBody.removalRadius cutter, s)
-    | (k, (Just cutter, b)) <- zip indices (Toolpath.withTools (Toolpath.setup path) blocks),
+    | (k, (Just cutter, b)) <-
+        zip (Toolpath.toolIndices blocks) (Toolpath.withTools (Toolpath.setup path) blocks),
       m <- Toolpath.moves b,
       Toolpath.pace m /= Part.Rapid,
       s <- quarters (Toolpath.segment m)
   ]
   where
     blocks = Toolpath.blocks path
-    indices = scanl (\n b -> if isChange b then n + 1 else n) 0 blocks
-    isChange b = case b of
-      Toolpath.Commanding (Located _ (Part.ChangeTool _ _)) -> True
-      _ -> False
 
 -- | The area of the nose of a turning tool on its path, and the area behind it.
 turnedArea :: Maybe OpenSide -> Mm -> Segment -> [[Polyarc]]

@@ -17,6 +17,7 @@ module Toolpath.Toolpath
     moves,
     passNumbers,
     withTools,
+    toolIndices,
     openSideOf,
     curveRuns,
     isCurve,
@@ -238,6 +239,16 @@ withTools setup' = go (firstCutter setup')
       b@(Commanding (Located _ (Part.ChangeTool _ c))) : more -> (cutter, b) : go (Just c) more
       b : more -> (cutter, b) : go cutter more
 
+-- | The count of tool changes before each block.
+toolIndices :: [Block] -> [Int]
+toolIndices = scanl (\n b -> if isToolChange b then n + 1 else n) 0
+
+-- | True for a block that changes the tool.
+isToolChange :: Block -> Bool
+isToolChange b = case b of
+  Commanding (Located _ (Part.ChangeTool _ _)) -> True
+  _ -> False
+
 -- | The side from which a turning tool comes, by the count of tool changes before it: from below
 -- the profile if it bores in all statements that use it, from above if it never bores. Nothing for
 -- a milled part and for a tool that does both.
@@ -248,13 +259,10 @@ openSideOf path
   where
     sides = [(k, side) | (k, Just side) <- zip [0 ..] (map sideOf (usesOf (blocks path)))]
     -- For each tool, the statements that turn with it: true for a bore.
-    usesOf bs = case break isChange bs of
+    usesOf bs = case break isToolChange bs of
       (front, []) -> [bores front]
       (front, _ : more) -> bores front : usesOf more
     bores bs = [value (Part.side (value job)) == Part.Inside | Cutting {job} <- bs]
-    isChange b = case b of
-      Commanding (Located _ (Part.ChangeTool _ _)) -> True
-      _ -> False
     sideOf used
       | and used && not (null used) = Just (Below (Mm (-1)))
       | or used = Nothing

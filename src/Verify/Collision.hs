@@ -40,7 +40,7 @@ import Machine.ProgramForm (RapidPath (BoxPath))
 import Machine.ProgramForm qualified as ProgramForm
 import Part.AvoidedSolid qualified as AvoidedSolid
 import Part.CutterBody qualified as CutterBody
-import Part.Part (Cutter (..), HolderCylinder (..), ToolBody (..))
+import Part.Part (Cutter (..), ToolBody (..))
 import Part.Part qualified as Part
 import Toolpath.Toolpath (Block, Toolpath)
 import Toolpath.Toolpath qualified as Toolpath
@@ -157,7 +157,7 @@ toolsOf subject@ProofSubject {path, program, frames}
 -- | Parts of the holder of a tool.
 holderParts :: Cutter -> [Cylinder]
 holderParts c =
-  [Cylinder HolderPart r z | HolderCylinder {holderRadius = r, aboveTip = z} <- holder (body c)]
+  [Cylinder HolderPart r z | CutterBody.Cylinder r z <- drop 1 (CutterBody.cylindersOf c)]
 
 -- | Numbers of the frames that are rapid moves. A machine without a code for them has a feed code
 -- instead, which is no sign of a rapid move if the program cuts with it.
