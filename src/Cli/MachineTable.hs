@@ -168,9 +168,10 @@ axisRows m =
     against = "points against that of the part"
     arcText = case arcs m of
       NoArcs -> "none"
-      Arcs {quadrants, fullCircle} ->
+      Arcs {quadrants, fullCircle, rising} ->
         (if quadrants then "within a quadrant" else "any")
           <> (if fullCircle then ", full circles too" else "")
+          <> (if rising then ", helices too" else "")
 
 -- The frame ---------------------------------------------------------------------------------------
 

@@ -74,14 +74,12 @@ pulsesPerMm machine f (Mm l) = case Machine.feedMeasure (Machine.feeds machine) 
             Pulses n = maximum [x, y, z, a, b]
          in n
 
--- | Length of a frame in mm: for a straight frame the length in space, for an arc the length in the
--- plane of x and y.
+-- | Length of a frame in mm, in space: of its line, arc or helix.
 frameLength :: Machine -> Frame -> Mm
-frameLength machine f = case motion f of
-  Circular _ -> plane
-  _ -> let Mm l = plane; Mm h = Frame.height machine (increment f) in Mm (sqrt (l * l + h * h))
+frameLength machine f = Mm (sqrt (l * l + h * h))
   where
-    plane = Segment.length (Frame.segment machine 0 f)
+    Mm l = Segment.length (Frame.segment machine 0 f)
+    Mm h = Frame.height machine (increment f)
 
 -- | Code for the feed @v@ of a cut in the frame @f@, as 'nearestCode' gives it. A feed that is not
 -- known has the code of the lowest feed; "Frame.InstructionCheck" reports it.

@@ -81,7 +81,8 @@ data FrameMotion
     Rapid
   | -- | straight line
     Linear
-  | -- | circular arc in the plane x, y. An arc whose increment is 0 is a full circle
+  | -- | circular arc in the plane x, y. An arc whose increments along x and y are 0 is a full
+    -- circle. If z has an increment, the arc is a helix, and z changes in proportion to the angle
     Circular Sense
   deriving stock (Eq, Show)
 
@@ -265,16 +266,16 @@ motionFaults machine n f = case motion f of
   Linear -> [NoSuchMotion n | isStill f || centre f /= 0]
   Circular sense -> case Machine.arcs machine of
     NoArcs -> [NoSuchMotion n]
-    Arcs {Machine.fullCircle, Machine.quadrants} ->
+    Arcs {Machine.fullCircle, Machine.quadrants, Machine.rising} ->
       [ NoSuchMotion n
-        | (increment f == 0 && not fullCircle)
-            || z /= 0
+        | (x == 0 && y == 0 && not fullCircle)
+            || (z /= 0 && not rising)
             || turn f /= 0
             || (quadrants && not (isInQuadrant sense f))
       ]
         <> [BadCentre n | centre f == 0 || max (abs i) (abs j) > Machine.centreCapacity machine]
   where
-    Pulses3 _ _ z = increment f
+    Pulses3 x y z = increment f
     Pulses2 i j = centre f
 
 -- | Commands that the machine cannot encode, or that occur twice.

@@ -2,7 +2,8 @@
 --
 -- A run is a sequence of moves along one line, arc or curve. A level run stays at one height. On
 -- machines with circular interpolation a level run becomes lines and arcs, and chords where arcs
--- are not possible. Every other run becomes chords within the tolerance.
+-- are not possible. So does a single arc that rises, on machines with helices ("Frame.Helix").
+-- Every other run becomes chords within the tolerance.
 --
 -- Positions are rounded to whole pulses, moves are split to fit their fields, and every frame gets
 -- its feed code, its braking mark and its commands. Requests that the machine cannot carry out are
@@ -51,6 +52,7 @@ import Frame.Frame
   )
 import Frame.Frame qualified as Frame
 import Frame.FrameCheck qualified as FrameCheck
+import Frame.Helix qualified as Helix
 import Frame.Instruction (FeedMode (..), Instruction (..))
 import Frame.Instruction qualified as Instruction
 import Frame.InstructionCheck qualified as InstructionCheck
@@ -384,12 +386,17 @@ stepsOf context@Context {machine} begin instruction chordEnds = case instruction
       map straightTo (Rounding.split machine begin ((a, fst (heights m)), (b, snd (heights m))))
   Run {tolerance, run} -> case Machine.arcs machine of
     Arcs {} | Rounding.isLevel machine run -> arcSteps context begin tolerance run
+    Arcs {}
+      | isForSegment tolerance && Helix.isHelix machine run,
+        let m = NonEmpty.head run ->
+        Helix.raised machine m (arcSteps context begin tolerance (levelled m :| []))
     _ -> map straightTo (chordSteps machine begin run chordEnds)
   where
     isForSegment tolerance = case tolerance of
       OnCurve _ -> False
       Sagitta _ -> True
       ArcBand _ _ -> True
+    levelled m = let z = fst (heights m) in Toolpath.atHeights (z, z) m
 
 -- | Straight step to a position in pulses.
 straightTo :: Pulses3 -> ArcStep

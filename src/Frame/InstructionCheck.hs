@@ -26,6 +26,7 @@ import Frame.ChordError qualified as ChordError
 import Frame.Error (Error (..), Warning (..))
 import Frame.FeedCode qualified as FeedCode
 import Frame.Frame (mostFrames)
+import Frame.Helix qualified as Helix
 import Frame.Instruction (FeedMode (..), Instruction (..))
 import Frame.Rounding (PathPosition)
 import Frame.Rounding qualified as Rounding
@@ -222,7 +223,8 @@ counted context tolerance moves chordEnds before = case tooMany before of
   where
     now =
       count before + case Machine.arcs (machine context) of
-        Arcs {} | Rounding.isLevel (machine context) moves -> 1
+        Arcs {}
+          | Rounding.isLevel (machine context) moves || Helix.isHelix (machine context) moves -> 1
         _ ->
           ChordError.frameCount
             (machine context)

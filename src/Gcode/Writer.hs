@@ -518,7 +518,7 @@ motionText context@Context {machine} end f = Text.unwords (motionWord : axisWord
           component axis (increment f) /= 0 || isFullCircle && axis /= Z,
           word <- maybeToList (axisText context end axis)
       ]
-    isFullCircle = increment f == 0
+    isFullCircle = let Pulses3 x y _ = increment f in x == 0 && y == 0
     centreWords = case motion f of
       Circular _ ->
         let Pulses2 i j = centre f

@@ -40,12 +40,13 @@ data AxisForm = AxisForm
   }
   deriving stock (Eq, Show)
 
--- | Arcs that one frame can describe. All arcs lie in the plane of x and y.
+-- | Arcs that one frame can describe. All arcs turn in the plane of x and y.
 data Arcs
   = NoArcs
   | -- | @quadrants@ is true if the arc of one frame, unless it is a full circle, has to lie within
-    -- one quadrant. @fullCircle@ is true if one frame can describe a full circle.
-    Arcs {quadrants :: Bool, fullCircle :: Bool}
+    -- one quadrant. @fullCircle@ is true if one frame can describe a full circle. @rising@ is true
+    -- if z may change along the arc, in proportion to its angle: the frame describes a helix.
+    Arcs {quadrants :: Bool, fullCircle :: Bool, rising :: Bool}
   deriving stock (Eq, Show)
 
 -- | Finds the properties of the axis @a@ in a list; 'Nothing' if the list lacks the axis.

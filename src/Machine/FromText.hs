@@ -345,16 +345,24 @@ directionFrom = choice [("forwards", False), ("reversed", True)]
 
 -- | Reads the arcs that a frame can describe.
 arcsFrom :: Statement -> Result w Error Arcs
-arcsFrom = withArguments ["arcs none", "arcs quadrant", "arcs any", "arcs any full-circle"] kind
+arcsFrom =
+  withArguments
+    ["arcs none", "arcs quadrant", "arcs any", "arcs any full-circle", "arcs any rising"]
+    kind
   where
     kind args = case map value args of
       [Word "none"] -> Just (pure NoArcs)
-      [Word "quadrant"] -> arcsOf True False
-      [Word "quadrant", Word "full-circle"] -> arcsOf True True
-      [Word "any"] -> arcsOf False False
-      [Word "any", Word "full-circle"] -> arcsOf False True
+      Word "quadrant" : more -> arcsOf True more
+      Word "any" : more -> arcsOf False more
       _ -> Nothing
-    arcsOf quadrants fullCircle = Just (pure Arcs {quadrants, fullCircle})
+    arcsOf quadrants more = case more of
+      [] -> given False False
+      [Word "full-circle"] -> given True False
+      [Word "rising"] -> given False True
+      [Word "full-circle", Word "rising"] -> given True True
+      _ -> Nothing
+      where
+        given fullCircle rising = Just (pure Arcs {quadrants, fullCircle, rising})
 
 -- | Reads the section @limits@.
 limitsFrom :: Statement -> Result w Error Limits

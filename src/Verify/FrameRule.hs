@@ -6,7 +6,7 @@ module Verify.FrameRule
   )
 where
 
-import Base.PulseVector (Pulses3)
+import Base.PulseVector (Pulses3 (..))
 import Base.Quantity (Mm (..), minus, plus, times)
 import Control.Motion (Motion (..))
 import Control.Motion qualified as Control
@@ -60,9 +60,10 @@ impossibleArc machine n at f =
   ]
     <> [ NoSweep n
          | Frame.centre f /= 0,
-           not (Control.isRound f) || Frame.increment f /= 0 && Control.endsInStartDirection f
+           not (Control.isRound f) || isElsewhere && Control.endsInStartDirection f
        ]
   where
+    isElsewhere = let Pulses3 x y _ = Frame.increment f in x /= 0 || y /= 0
     motion = Motion {number = n, from = at, to = at + Frame.increment f, frame = f}
     largestDifference = times 2 (Machine.planeResolution machine)
 

@@ -101,8 +101,9 @@ rotaryLines a =
 arcsText :: Arcs -> Text
 arcsText a = case a of
   NoArcs -> "none"
-  Arcs {quadrants, fullCircle} ->
+  Arcs {quadrants, fullCircle, rising} ->
     (if quadrants then "quadrant" else "any") <> (if fullCircle then " full-circle" else "")
+      <> (if rising then " rising" else "")
 
 frameLines :: Layout -> [Text]
 frameLines l =
