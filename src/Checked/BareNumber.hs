@@ -15,6 +15,7 @@ import Checked.Dimension qualified as Dimension
 import Checked.Syntax (Mention (Mention, definition, place, typing), MentionType (OfValue))
 import Checked.Type (Type (ListOf))
 import Checked.Type qualified as Type
+import Data.Foldable (toList)
 import Data.List (nub)
 import Data.List.NonEmpty (NonEmpty (..))
 import Data.List.NonEmpty qualified as NonEmpty
@@ -229,6 +230,11 @@ typedItem i = case value i of
 typedSetting :: Setting -> [(Maybe Type, Expr)]
 typedSetting s = case value s of
   Plunge e -> [(Just Type.feed, e)]
+  Ramp e -> [(Just Type.angle, e)]
+  Tabs places width height angle ->
+    [(Nothing, e) | e <- placed places]
+      <> [(Just Type.len, width), (Just Type.len, height)]
+      <> [(Just Type.angle, e) | e <- toList angle]
   Approach _ -> plain
   Retract _ -> plain
   StartNear _ -> plain
@@ -236,3 +242,6 @@ typedSetting s = case value s of
   _ -> [(Just Type.len, e) | e <- SyntaxWalk.ofSetting s]
   where
     plain = [(Nothing, e) | e <- SyntaxWalk.ofSetting s]
+    placed places = case places of
+      TabCount n -> [n]
+      TabsAt ps -> toList ps

@@ -76,6 +76,19 @@ setting env statement (Located at s) = do
     Surface.StartNear e ->
       (\e' sol o -> o {startNear = Just (Located at (e' sol))}) <$> expect env Type.aPoint e
     Surface.Plunge e -> (\e' sol o -> o {plunge = Just (e' sol)}) <$> cutFeed env e
+    Surface.Ramp e -> descentBy (fmap Checked.Ramp <$> expect env Type.angle e)
+    Surface.Helix p d -> do
+      p' <- len p
+      d' <- traverse len d
+      descentBy (pure (\sol -> Checked.Helix (p' sol) (($ sol) <$> d')))
+    Surface.Spiral -> descentBy (pure (const Checked.Spiral))
+    Surface.Tabs places w h a -> do
+      places' <- tabPlaces env places
+      w' <- len w
+      h' <- len h
+      a' <- traverse (expect env Type.angle) a
+      pure $ \sol o ->
+        o {tabs = Just (Located at (Checked.Tabs (places' sol) (w' sol) (h' sol) (($ sol) <$> a')))}
     Surface.Peck e -> (\e' sol o -> o {peck = Just (e' sol)}) <$> len e
     Surface.Islands es ->
       (\es' sol o -> o {islands = map ($ sol) es'})
@@ -84,6 +97,14 @@ setting env statement (Located at s) = do
     Surface.BrokenSetting -> (\_ o -> o) <$ Inference.taint
   where
     len = expect env Type.len
+    descentBy = fmap (\d sol o -> o {descent = Just (Located at (d sol))})
+
+-- | Checks the number of tabs, or the points near which they are.
+tabPlaces :: TypingEnvironment -> Surface.TabPlaces -> Infer (Deferred Checked.TabPlaces)
+tabPlaces env places = case places of
+  Surface.TabCount n -> (\n' sol -> Checked.TabCount (n' sol)) <$> expect env Type.number n
+  Surface.TabsAt ps ->
+    (\ps' sol -> Checked.TabsAt (fmap ($ sol) ps')) <$> mapM (expect env Type.aPoint) ps
 
 stops :: TypingEnvironment -> NonEmpty Surface.Stop -> Infer (Deferred [Checked.Stop])
 stops env to = (\ps sol -> map ($ sol) ps) <$> mapM (stop env) (NonEmpty.toList to)
@@ -127,6 +148,8 @@ unset =
       compensation = Nothing,
       startNear = Nothing,
       plunge = Nothing,
+      descent = Nothing,
+      tabs = Nothing,
       peck = Nothing,
       islands = [],
       restAllowed = Nothing
@@ -148,6 +171,11 @@ keyword s = case s of
   Surface.CompensationBy _ -> "compensation"
   Surface.StartNear _ -> "start near"
   Surface.Plunge _ -> "plunge"
+  Surface.Ramp _ -> "ramp"
+  Surface.Helix _ _ -> "helix"
+  Surface.Spiral -> "spiral"
+  Surface.Tabs (Surface.TabCount _) _ _ _ -> "tabs"
+  Surface.Tabs (Surface.TabsAt _) _ _ _ -> "tab at"
   Surface.Peck _ -> "peck"
   Surface.Islands _ -> "islands"
   Surface.RestAllowed -> "rest"
@@ -158,4 +186,8 @@ keyword s = case s of
 subject :: Surface.Setting_ -> Text
 subject s = case s of
   Surface.CutBy _ -> "climb or conventional"
+  Surface.Ramp _ -> "ramp, helix or spiral"
+  Surface.Helix _ _ -> "ramp, helix or spiral"
+  Surface.Spiral -> "ramp, helix or spiral"
+  Surface.Tabs {} -> "tabs"
   _ -> keyword s

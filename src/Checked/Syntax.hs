@@ -23,6 +23,9 @@ module Checked.Syntax
     Spin (..),
     Assertion (..),
     Settings (..),
+    DescentForm (..),
+    Tabs (..),
+    TabPlaces (..),
     Expr,
     Expr_ (..),
     namesIn,
@@ -273,6 +276,9 @@ data Settings = Settings
     startNear :: Maybe (Located Expr),
     -- | the feed of moves down into the material
     plunge :: Maybe CutFeedExpr,
+    -- | the region of the setting that gives the way down into the material, and this way
+    descent :: Maybe (Located DescentForm),
+    tabs :: Maybe (Located Tabs),
     -- | the largest depth of a peck, which is a step of drilling before the drill is retracted
     peck :: Maybe Expr,
     -- | the islands of a pocket: expressions of contours and of lists of contours
@@ -280,6 +286,31 @@ data Settings = Settings
     -- | the region of the setting that allows rest material; without it, rest material is a mistake
     restAllowed :: Maybe Region
   }
+  deriving stock (Eq, Show)
+
+-- | The way down into the material.
+data DescentForm
+  = -- | along the path, at this angle at most
+    Ramp Expr
+  | -- | by a helix: its largest pitch, and the diameter of the path of the cutter's centre
+    Helix Expr (Maybe Expr)
+  | -- | along a closed path, down all the depth in laps without a stop
+    Spiral
+  deriving stock (Eq, Show)
+
+-- | Tabs: material that is left along a contour to hold the part.
+data Tabs = Tabs
+  { tabPlaces :: TabPlaces,
+    tabWidth :: Expr,
+    -- | the height above the lowest pass
+    tabHeight :: Expr,
+    -- | the angle of the sides against the floor
+    tabAngle :: Maybe Expr
+  }
+  deriving stock (Eq, Show)
+
+-- | The places of tabs: so many of them along the contour, or one near each point.
+data TabPlaces = TabCount Expr | TabsAt (NonEmpty Expr)
   deriving stock (Eq, Show)
 
 -- | An expression of the checked program, with its region.

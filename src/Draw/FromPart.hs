@@ -57,6 +57,7 @@ import Toolpath.Toolpath
         approach,
         cleared,
         cut,
+        descent,
         job,
         pass,
         pocket,
@@ -250,7 +251,7 @@ holesOf operation = case operation of
 movesBetween :: Block -> [Move]
 movesBetween block = case block of
   Travelling _ _ moves -> moves
-  Cutting {approach, retract} -> approach <> retract
+  Cutting {approach, descent, retract} -> approach <> descent <> retract
   Clearing {approach, cleared, retract} ->
     approach <> filter (not . isCut) (NonEmpty.toList cleared) <> retract
   Holing _ moves -> moves

@@ -129,6 +129,7 @@ ofBlock machine blockNumber n walls b = case b of
     { Toolpath.job = Located region' job,
       Toolpath.pass,
       Toolpath.approach,
+      Toolpath.descent,
       Toolpath.cut,
       Toolpath.retract,
       Toolpath.sent
@@ -136,7 +137,7 @@ ofBlock machine blockNumber n walls b = case b of
       let along = milled machine job (Passage.tolerance machine job pass walls)
        in fromMaybe
             ( concat
-                [ along (Approaching n) approach,
+                [ along (Approaching n) (approach <> descent),
                   along (Cutting n) (NonEmpty.toList cut),
                   along (Retracting n) retract
                 ]

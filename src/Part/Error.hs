@@ -29,6 +29,8 @@ import Part.ContourError (ContourFault)
 import Part.ContourError qualified as ContourError
 import Part.CurveError (CurveMistake)
 import Part.CurveError qualified as CurveError
+import Part.DescentError (DescentMisfit)
+import Part.DescentError qualified as DescentError
 import Part.ErrorText (alternatively)
 import Part.Parameter (Domain, LimitedQuantity, Range (..), WholeNumber)
 import Part.Parameter qualified as Parameter
@@ -54,8 +56,8 @@ data Error = Error
   deriving stock (Eq, Show)
 
 -- | A mistake in a value, a statement or the geometry. The first field of a constructor is the
--- region that the report points at, and its comment names the other fields in order. The last six
--- constructors contain facts of other modules.
+-- region that the report points at, and its comment names the other fields in order. The last
+-- seven constructors contain facts of other modules.
 data ValueFact
   = DivisionByZero Region
   | OutOfDomain Region Domain
@@ -103,6 +105,7 @@ data ValueFact
   | -- | a dwell that is too long: the longest one, in seconds
     DwellTooLong Region Seconds
   | InBody BodyMistake
+  | InDescent DescentMisfit
   | InConstruction ConstructionFault
   | InContour ContourFault
   | InCurve CurveMistake
@@ -270,6 +273,7 @@ factReport unit arguments fact = case fact of
   InPocket fault -> PocketError.toReport unit fault
   InRegion fault -> RegionError.toReport unit fault
   InBody fault -> BodyError.toReport unit fault
+  InDescent fault -> DescentError.toReport unit fault
 
 -- | The sentence that a quantity has the value @x@, which breaks a rule.
 limited :: LengthUnit -> LimitedQuantity -> Text -> Double -> Text
@@ -343,6 +347,7 @@ notWholeReport region number range arguments x =
       Parameter.ListPointNumber -> Nothing
       Parameter.CornerCount -> argument 1
       Parameter.ToothCount -> argument 1
+      Parameter.TabCount -> Just region
 
 -- | The report of a statement for which the tool has the wrong kind. It points at the keyword with
 -- which the statement begins.

@@ -99,12 +99,21 @@ evaluate program =
           stock = stock' final,
           avoided = reverse (avoided' final),
           contours = reverse (contours' final),
-          operations = reverse (operations' final),
+          operations = map (under (stock' final)) (reverse (operations' final)),
           fittings = reverse (fittings' final),
           assertedSizes = reverse (sizes' final),
           readings = readings' final,
           namedPoints = reverse (namedPoints' final)
         }
+
+-- | An operation whose material begins at the top of the stock, if that is above the part.
+under :: Maybe (Located Solid) -> Operation -> Operation
+under stock operation = case (stock, operation) of
+  (Just (Located _ s), Mill (Located r m)) -> Mill (Located r (m `from` s))
+  (Just (Located _ s), Pocket (Located r p)) -> Pocket (Located r p {wall = wall p `from` s})
+  _ -> operation
+  where
+    m `from` s = m {surface = max (Mm 0) (highest s)}
 
 -- | The errors of a safe height that is lower than a clearance height of the program, or than a
 -- solid that the program avoids.

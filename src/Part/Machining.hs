@@ -36,6 +36,7 @@ import Part.ContourElement qualified as ContourElement
 import Part.ContourError (ContourFault (OpenBegins))
 import Part.CurveError (CurveMistake (SteepBevel))
 import Part.CutFeed (CutFeed)
+import Part.Descent qualified as Descent
 import Part.Error (CutterStatement (..), Error (..), ValueFact (..))
 import Part.Evaluation (Eval)
 import Part.Evaluation qualified as Evaluation
@@ -121,6 +122,8 @@ data Passes = Passes
     retractStops :: Maybe [Stop],
     heights :: [Mm],
     plungeFeed :: Maybe (Located CutFeed),
+    wayDown :: Located Descent,
+    leftTabs :: Maybe (Located Tabs),
     -- | the lead-in and the lead-out: the form, and the length of the line or the radius of the arc
     leads :: (Maybe (LeadForm, Mm), Maybe (LeadForm, Mm)),
     -- | the allowance of each pass
@@ -133,8 +136,10 @@ passesOf context at contour settings = do
   approachStops <- stopsOf context (Checked.approach settings)
   retractStops <- stopsOf context (Checked.retract settings)
   path <- startedNear env contour (Checked.startNear settings)
-  heights <- maybe (pure []) (levelsOf env) (Checked.depth settings)
+  wayDown <- Descent.descentOf env at (cutter context) path settings
+  heights <- maybe (pure []) (levelsOf env (value wayDown)) (Checked.depth settings)
   checkSteps context at (Checked.depth settings) heights
+  leftTabs <- Descent.tabsOf env (cutter context) heights settings
   plungeFeed <- traverse (feedOf env) (Checked.plunge settings)
   leadIn <- traverse lead (Checked.leadIn settings)
   leadOut <- traverse lead (Checked.leadOut settings)
@@ -150,6 +155,8 @@ passesOf context at contour settings = do
         retractStops,
         heights,
         plungeFeed,
+        wayDown,
+        leftTabs,
         leads = (leadIn, leadOut),
         passAllowances
       }
@@ -185,6 +192,9 @@ assembled context work at side settings passes = do
         levels = heights passes,
         clearance = clearanceHeight context,
         plunge = plungeFeed passes,
+        descent = wayDown passes,
+        surface = Mm 0,
+        tabs = leftTabs passes,
         leadIn = fst (leads passes),
         leadOut = snd (leads passes),
         allowances = passAllowances passes,
@@ -232,9 +242,10 @@ startedNear env contour near = case near of
 
 -- | The heights of the passes from the highest to the lowest, in mm and negative. The pair of
 -- expressions gives @depth@, the depth of the lowest pass, and @most@, the largest stepdown. All
--- steps are equal. Without @most@ there is one pass.
-levelsOf :: Environment -> (Expr, Maybe Expr) -> Eval [Mm]
-levelsOf env (depth, most) = do
+-- steps are equal. Without @most@ there is one pass, and so there is after a spiral, which goes down
+-- to it.
+levelsOf :: Environment -> Descent -> (Expr, Maybe Expr) -> Eval [Mm]
+levelsOf env wayDown (depth, most) = do
   d <- lengthOf env Parameter.Depth depth
   stepdown <- traverse (lengthOf env Parameter.PassDepth) most
   let count = maybe 1 (\s -> max 1 (ceiling (over d s - Tolerance.equal))) stepdown :: Int
@@ -243,7 +254,9 @@ levelsOf env (depth, most) = do
     ( Evaluation.mistake
         (NotWhole (region depth) Parameter.PassCount (UpTo 10000) (fromIntegral count))
     )
-  pure [times (negate (fromIntegral k / fromIntegral count)) d | k <- [1 .. count]]
+  pure $ case wayDown of
+    Spiralling _ -> [times (-1) d]
+    _ -> [times (negate (fromIntegral k / fromIntegral count)) d | k <- [1 .. count]]
 
 -- | Fails if there are passes at several @heights@ and the cutter is widest at its tip. @at@ is the
 -- region of the statement, and @depth@ the depth that the statement gives.

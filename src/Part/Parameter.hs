@@ -62,6 +62,12 @@ data LimitedQuantity
     StickOut
   | -- | the diameter or the height of a cylinder of a holder
     HolderSize
+  | -- | the height of one turn of a helix
+    Pitch
+  | -- | the diameter of the path of the cutter's centre in a helix
+    HelixDiameter
+  | TabWidth
+  | TabHeight
   | -- | the time of a pause of the axes
     DwellTime
   deriving stock (Eq, Show)
@@ -99,6 +105,10 @@ name parameter = case parameter of
   FluteLength -> "the length of the flutes"
   StickOut -> "the stick-out"
   HolderSize -> "a size of the holder"
+  Pitch -> "the pitch"
+  HelixDiameter -> "the diameter of a helix"
+  TabWidth -> "the width of a tab"
+  TabHeight -> "the height of a tab"
   DwellTime -> "a dwell"
 
 -- | The text of a quantity, in which lengths and feeds have the given unit. @x@ is in mm\/min for a
@@ -140,6 +150,7 @@ data WholeNumber
     CornerCount
   | -- | the number of teeth of a gear
     ToothCount
+  | TabCount
   deriving stock (Eq, Show)
 
 -- | The name that reports use for a whole number.
@@ -160,6 +171,7 @@ wholeName number = case number of
   ListPointNumber -> "the number of a point"
   CornerCount -> "the number of corners"
   ToothCount -> "the number of teeth"
+  TabCount -> "the number of tabs"
 
 -- | The range that a whole number must be in: up to a limit, or from one limit to another. The
 -- limits belong to the range.

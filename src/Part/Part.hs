@@ -19,6 +19,9 @@ module Part.Part
     Milling (..),
     MillingPlaces (..),
     RestPolicy (..),
+    Descent (..),
+    Tabs (..),
+    TabPlaces (..),
     Pocketing (..),
     Work (..),
     Accuracy (..),
@@ -45,7 +48,7 @@ module Part.Part
 where
 
 import Base.Name (Name)
-import Base.Quantity (LengthUnit, Mm (..), Seconds)
+import Base.Quantity (LengthUnit, Mm (..), Rad, Seconds)
 import Base.Region (Located, Region)
 import Checked.Syntax
   ( Corners (..),
@@ -244,6 +247,13 @@ data Milling = Milling
     clearance :: Maybe Mm,
     -- | the feed of moves down into the material
     plunge :: Maybe (Located CutFeed),
+    -- | the way down into the material, with the region of the setting, or of the statement if it
+    -- has none
+    descent :: Located Descent,
+    -- | the height at which the material begins: 0, or the top of the stock if that is higher
+    surface :: Mm,
+    -- | the material that the statement leaves to hold the part, with the region of the setting
+    tabs :: Maybe (Located Tabs),
     -- | the form of the lead-in, and the length of its line or the radius of its arc
     leadIn :: Maybe (LeadForm, Mm),
     leadOut :: Maybe (LeadForm, Mm),
@@ -288,6 +298,35 @@ data RestPolicy
     Refused
   | -- | rest material remains, and the compiler warns of it
     Allowed
+  deriving stock (Eq, Show)
+
+-- | The way down into the material before a pass.
+data Descent
+  = -- | straight down
+    Plunging
+  | -- | along the path of the pass, at this angle to the plane at most
+    Ramping Rad
+  | -- | by a helix: its largest pitch, and the diameter of the path of the cutter's centre if the
+    -- program gives it
+    Helical Mm (Maybe Mm)
+  | -- | along a closed path, by this depth at most in each lap, down to the only pass
+    Spiralling Mm
+  deriving stock (Eq, Show)
+
+-- | Tabs: material that is left along a contour to hold the part.
+data Tabs = Tabs
+  { tabPlaces :: TabPlaces,
+    -- | the width of a tab at its narrowest, in the middle of the cut
+    tabWidth :: Mm,
+    -- | the height of the top of a tab; the top of the part is 0
+    tabTop :: Mm,
+    -- | the angle of the sides of a tab against the floor, below a right angle
+    tabSides :: Rad
+  }
+  deriving stock (Eq, Show)
+
+-- | The places of tabs: so many of them, evenly along the contour, or one near each point.
+data TabPlaces = Evenly Int | NearPoints (NonEmpty (Located Point))
   deriving stock (Eq, Show)
 
 -- | The clearing of a pocket: the inside of a closed contour.

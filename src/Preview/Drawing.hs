@@ -230,9 +230,9 @@ movesOf path = concatMap ofBlock (ToolUse.blocksWithTools path)
       Commanding _ -> []
       Travelling _ _ moves -> map (linking tool True) moves
       Holing _ moves -> [DrawnMove m (Toolpath.pace m /= Part.Rapid) tool True | m <- moves]
-      Cutting {pass, approach, cut, retract} ->
+      Cutting {pass, approach, descent, cut, retract} ->
         let isLast = isFinal pass
-         in map (linking tool isLast) approach
+         in map (linking tool isLast) (approach <> descent)
               <> [DrawnMove m True tool isLast | m <- NonEmpty.toList cut]
               <> map (linking tool isLast) retract
       Clearing {approach, cleared, retract} ->

@@ -227,6 +227,21 @@ settings =
         ("plunge", "Gives the feed of moves down into the material.")
       ]
     <> under
+      "language.md#going-down"
+      [ ("ramp", "Goes down along the path, at this angle at most."),
+        ("helix", "Goes down by a helix."),
+        ("pitch", "Gives the largest height of one turn of a helix."),
+        ("spiral", "Goes down all the depth in laps without a stop.")
+      ]
+    <> under
+      "language.md#tabs"
+      [ ("tabs", "Leaves so many tabs along the contour, which hold the part."),
+        ("tab", "Leaves tabs at points, which hold the part."),
+        ("tab at", "Leaves tabs at points, which hold the part."),
+        ("width", "Gives the width of the tabs at their narrowest."),
+        ("angle", "Gives the angle of the sides of the tabs.")
+      ]
+    <> under
       "language.md#passes"
       [("allowance", "Gives the material that each pass leaves.")]
     <> under

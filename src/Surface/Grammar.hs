@@ -383,10 +383,25 @@ settingForms =
     ),
     ("start", keyword "near" *> (StartNear <$> expr)),
     ("plunge", Plunge <$> onSameLine "a feed" expr),
+    ("ramp", Ramp <$> onSameLine "an angle" expr),
+    ( "helix",
+      keyword "pitch"
+        *> (Helix <$> onSameLine "a pitch" expr <*> Parsec.optional (keyword "diameter" *> expr))
+    ),
+    ("spiral", pure Spiral),
+    ("tabs", (Tabs . TabCount <$> onSameLine "a number" expr) >>= tabSizes),
+    ("tab", keyword "at" *> (Tabs . TabsAt <$> (expr `sepBy1` ",")) >>= tabSizes),
     ("peck", Peck <$> onSameLine "a depth" expr),
     ("islands", Islands <$> (expr `sepBy1` ",")),
     ("rest", RestAllowed <$ keyword "allowed")
   ]
+
+-- | The width, the height and the angle of the sides of tabs.
+tabSizes :: Grammar p => (Expr -> Expr -> Maybe Expr -> a) -> p a
+tabSizes tabs =
+  tabs <$> (keyword "width" *> expr)
+    <*> (keyword "height" *> expr)
+    <*> Parsec.optional (keyword "angle" *> expr)
 
 -- | One or more points. Each may have the pace of the motion to it: @rapid@ or a feed.
 stops :: Parser (NonEmpty Stop)

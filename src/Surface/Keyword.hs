@@ -45,6 +45,7 @@ beginsItem word = word `elem` (["for", "if", "cw", "ccw"] <> settings)
     settings =
       ["approach", "retract", "depth", "lead", "allowance", "corners", "climb", "conventional"]
         <> ["compensation", "start", "plunge", "peck", "islands", "rest"]
+        <> ["ramp", "helix", "spiral", "tabs", "tab"]
 
 -- | The settings that are allowed in the block of a statement, each by the one or two words with
 -- which it begins. @statement@ is the keyword of the statement.
@@ -54,7 +55,7 @@ settingsOf statement = case statement of
     linkingMoves
       <> ["start near", "climb", "conventional"]
       <> passes
-      <> ["depth", "plunge", "compensation", "rest"]
+      <> ["depth", "plunge", "ramp", "helix", "spiral", "tabs", "tab at", "compensation", "rest"]
   "pocket" ->
     [ "islands",
       "approach",
@@ -64,6 +65,8 @@ settingsOf statement = case statement of
       "allowance",
       "depth",
       "plunge",
+      "ramp",
+      "helix",
       "rest"
     ]
   "turn" -> linkingMoves <> passes

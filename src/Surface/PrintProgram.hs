@@ -434,6 +434,13 @@ setting comments indent (Located _ s) = case s of
   CompensationBy ByController -> worded "compensation" (Text "controller")
   StartNear p -> worded "start near" (value p)
   Plunge e -> worded "plunge" (value e)
+  Ramp e -> worded "ramp" (value e)
+  Helix p d ->
+    worded "helix" (spaced ([Text "pitch", value p] <> also "diameter" d))
+  Spiral -> whole indent (Text "spiral")
+  Tabs (TabCount n) w h a -> worded "tabs" (spaced (value n : tabSizes w h a))
+  Tabs (TabsAt ps) w h a ->
+    worded "tab at" (spaced ([Series (pieces ps)] <> tabSizes w h a))
   Peck e -> worded "peck" (value e)
   Islands es -> worded "islands" (Series (pieces es))
   RestAllowed -> worded "rest" (Text "allowed")
@@ -441,6 +448,8 @@ setting comments indent (Located _ s) = case s of
   where
     value = PrintExpression.value comments
     worded word = cells' SettingValues indent (Text word)
+    also word = maybe [] (\e -> [Text word, value e])
+    tabSizes w h a = also "width" (Just w) <> also "height" (Just h) <> also "angle" a
     pieces :: NonEmpty Expr -> [Member]
     pieces =
       NonEmpty.toList . PrintExpression.list comments . fmap (\e -> (Region.region e, value e))

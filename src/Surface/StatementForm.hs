@@ -165,6 +165,11 @@ settingForms =
     ("compensation", "compensation controller, or compensation compiler"),
     ("start", "start near (0, 0)"),
     ("plunge", "plunge 30"),
+    ("ramp", "ramp 3 deg"),
+    ("helix", "helix pitch 1"),
+    ("spiral", "spiral"),
+    ("tabs", "tabs 4 width 6 height 2"),
+    ("tab", "tab at (0, 20) width 6 height 2"),
     ("peck", "peck 4"),
     ("islands", "islands boss, rib"),
     ("rest", "rest allowed")

@@ -49,6 +49,7 @@ module Surface.Syntax
     MachineRef (..),
     Setting,
     Setting_ (..),
+    TabPlaces (..),
     Lead (..),
     LeadForm (..),
     Corners (..),
@@ -411,6 +412,15 @@ data Setting_
     StartNear Expr
   | -- | @plunge 20 mm/min@: the feed downwards
     Plunge Expr
+  | -- | @ramp 3 deg@: the steepest way down along the path
+    Ramp Expr
+  | -- | @helix pitch 1 diameter 8@: the way down by a helix, and the diameter of the centre's path
+    Helix Expr (Maybe Expr)
+  | -- | @spiral@: down all the depth in laps without a stop
+    Spiral
+  | -- | @tabs 4 width 6 height 2 angle 45 deg@: material that is left to hold the part, its width,
+    -- its height and the angle of its sides
+    Tabs TabPlaces Expr Expr (Maybe Expr)
   | -- | @peck 3 mm@: the depth that is drilled between two retracts
     Peck Expr
   | -- | @islands a, b@: contours in a pocket that are left uncut
@@ -419,6 +429,10 @@ data Setting_
     RestAllowed
   | -- | a setting with a mistake
     BrokenSetting
+  deriving stock (Eq, Show)
+
+-- | The places of tabs: so many of them along the contour, or one near each point.
+data TabPlaces = TabCount Expr | TabsAt (NonEmpty Expr)
   deriving stock (Eq, Show)
 
 -- | The linking move onto the contour or away from it.

@@ -16,6 +16,7 @@ where
 
 import Base.Name (Name (..))
 import Base.Region (Located (..))
+import Data.Foldable (toList)
 import Data.List.NonEmpty qualified as NonEmpty
 import Data.Maybe (maybeToList)
 import Data.Set (Set)
@@ -253,6 +254,11 @@ ofSetting (Located _ s) = case s of
   CompensationBy _ -> []
   StartNear e -> [e]
   Plunge e -> [e]
+  Ramp e -> [e]
+  Helix p d -> p : toList d
+  Spiral -> []
+  Tabs (TabCount n) w h a -> [n, w, h] <> toList a
+  Tabs (TabsAt ps) w h a -> toList ps <> [w, h] <> toList a
   Peck e -> [e]
   Islands es -> NonEmpty.toList es
   RestAllowed -> []

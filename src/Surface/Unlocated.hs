@@ -191,6 +191,11 @@ setting s = case s of
   CompensationBy who -> CompensationBy who
   StartNear p -> StartNear (expr p)
   Plunge e -> Plunge (expr e)
+  Ramp e -> Ramp (expr e)
+  Helix p d -> Helix (expr p) (expr <$> d)
+  Spiral -> Spiral
+  Tabs (TabCount n) w h a -> Tabs (TabCount (expr n)) (expr w) (expr h) (expr <$> a)
+  Tabs (TabsAt ps) w h a -> Tabs (TabsAt (fmap expr ps)) (expr w) (expr h) (expr <$> a)
   Peck e -> Peck (expr e)
   Islands es -> Islands (fmap expr es)
   RestAllowed -> RestAllowed

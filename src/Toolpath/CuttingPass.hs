@@ -21,7 +21,8 @@ import Data.Vector qualified as Vector
 import Geometry.Carrier qualified as Carrier
 import Geometry.Segment (Segment)
 import Geometry.Segment qualified as Segment
-import Geometry.Tolerance qualified as Tolerance
+import Geometry.Tolerance qualified as Geometry
+import Geometry.Vec (Point)
 import Geometry.Vec qualified as Vec
 import Offset.Equidistant (OffsetSegment)
 import Offset.Equidistant qualified as Equidistant
@@ -34,12 +35,17 @@ import Part.Part
 import Part.Part qualified as Part
 import Toolpath.Compensation (PassMoves (PassMoves))
 import Toolpath.Compensation qualified as Compensation
+import Toolpath.Descent (Way)
+import Toolpath.DescentChoice qualified as DescentChoice
 import Toolpath.Error (Error)
 import Toolpath.Lead qualified as Lead
 import Toolpath.LinkingMove (Visit (Visit))
 import Toolpath.LinkingMove qualified as LinkingMove
 import Toolpath.MillingSide (keyword)
 import Toolpath.Swivel qualified as Swivel
+import Toolpath.Tab (Tab)
+import Toolpath.Tab qualified as Tab
+import Toolpath.Tolerance qualified as Tolerance
 import Toolpath.Toolpath (Block (..), Manner (Manner), Move (Move), Pass (..))
 import Toolpath.Toolpath qualified as Toolpath
 
@@ -65,6 +71,11 @@ data CuttingPass = CuttingPass
     allowance :: Mm,
     -- | height of the pass; the top of the part is 0
     level :: Mm,
+    -- | height down to which the material is cut before the pass: that of the pass before it with
+    -- the same allowance, or the height at which the material begins
+    above :: Mm,
+    -- | positions of the cutter's centre in the middles of the statement's tabs
+    tabCentres :: [Point],
     -- | parts of the contour that the cutter does not reach; only the first of several paths has
     -- them, the others have none
     restMaterial :: [Equidistant.UnreachedPart]
@@ -77,10 +88,34 @@ block :: CuttingPass -> NonEmpty OffsetSegment -> Either Error Block
 block p path = do
   swivels <- Swivel.axis word milling (cutterSide p) path
   let cut = cutMoves p swivels path
-  blockOf p swivels cut (pathEnds milling path cut)
+      raisedOver = tabsOn p path
+  way <- DescentChoice.alongContour milling (reachOf p) (above p, level p) (fmap segmentOf path)
+  blockOf p swivels way raisedOver cut (pathEnds milling path cut)
   where
     milling = value (milled p)
     word = wordOf p
+    segmentOf = Equidistant.segment
+
+-- | The tabs over which the cutter rises in a pass along a path; none above their top.
+tabsOn :: CuttingPass -> NonEmpty OffsetSegment -> [Tab]
+tabsOn p path = case Part.tabs (value (milled p)) of
+  Just (Located _ t)
+    | level p < Part.tabTop t ->
+      Tab.onPath
+        t
+        (Part.radius (value (milled p)), level p)
+        (plus (largestAllowance (value (milled p))) Tolerance.alongTabs)
+        (tabCentres p)
+        (fmap Equidistant.segment path)
+  _ -> []
+
+-- | The largest allowance of the passes of a milling.
+largestAllowance :: Milling -> Mm
+largestAllowance = maximum . Part.allowances
+
+-- | Distance of the cutter's centre from the contour in a pass.
+reachOf :: CuttingPass -> Mm
+reachOf p = plus (touchedRadius (value (milled p))) (allowance p)
 
 -- | The ends of the path of a pass. The fields are strict. Computing @lastSegment@ makes all moves
 -- along the path. After that, the path itself is not needed any more.
@@ -100,13 +135,20 @@ pathEnds milling path cut =
       lastSegment = Toolpath.segment (NonEmpty.last cut)
     }
 
--- | The block of a pass. @swivels@ has, for the start and the end of each segment of the path, the
+-- | The block of a pass. @way@ is the way down; Nothing if the cutter goes straight down. @tabs@ are
+-- those over which it rises. @swivels@ has, for the start and the end of each segment of the path, the
 -- height of the z axis above its middle position; Nothing without a blade. @cut@ has the moves
 -- along the contour. The strict @ends@ of the path are computed before the block, so the block
 -- keeps no reference to the path.
 blockOf ::
-  CuttingPass -> Maybe (NonEmpty (Mm, Mm)) -> NonEmpty Move -> PathEnds -> Either Error Block
-blockOf p swivels cut ends@PathEnds {} = do
+  CuttingPass ->
+  Maybe (NonEmpty (Mm, Mm)) ->
+  Maybe Way ->
+  [Tab] ->
+  NonEmpty Move ->
+  PathEnds ->
+  Either Error Block
+blockOf p swivels way raisedOver cut ends@PathEnds {} = do
   sent <- Compensation.compensationInput word milling (cutterSide p) passMoves
   Right
     Cutting
@@ -114,12 +156,16 @@ blockOf p swivels cut ends@PathEnds {} = do
         pass =
           Pass
             { number = statement p,
-              reach = plus (touchedRadius milling) (allowance p),
+              reach = reachOf p,
               left = allowance p,
               atHeight = level p
             },
-        approach = Compensation.before passMoves <> Compensation.leadIn passMoves,
-        cut,
+        approach =
+          Compensation.before passMoves
+            <> (if null descent then Compensation.leadIn passMoves else []),
+        descent,
+        cut = if null raisedOver then cut else Tab.raisedAlong raisedOver down cut,
+        tabs = map Tab.centre raisedOver,
         retract = Compensation.leadOut passMoves <> Compensation.behind passMoves,
         rests = restMaterial p,
         sent
@@ -127,13 +173,43 @@ blockOf p swivels cut ends@PathEnds {} = do
   where
     milling = value (milled p)
     word = wordOf p
-    passMoves = allMoves p swivels cut ends
+    passMoves = allMoves p swivels way cut ends
+    down = LinkingMove.descentPace milling
+    descent = maybe [] (descentMoves p raisedOver passMoves) way
+
+-- | The moves of a way down, raised over the tabs, and those from its end to the cut.
+descentMoves :: CuttingPass -> [Tab] -> PassMoves -> Way -> [Move]
+descentMoves p raisedOver passMoves way = slope <> link <> Compensation.leadIn passMoves
+  where
+    milling = value (milled p)
+    slope = concatMap raised (NonEmpty.toList (LinkingMove.slopeMoves (wordOf p) milling way))
+    raised (places, m) = case places of
+      Just along ->
+        NonEmpty.toList (Tab.raised raisedOver (LinkingMove.descentPace milling) along m)
+      Nothing -> [m]
+    link =
+      LinkingMove.straightMoves
+        (LinkingMove.endPosition (from p) slope)
+        [ Part.Stop
+            (Located (wordOf p) begin)
+            (Just (plus (level p) (Mm 0)))
+            (Part.At (feed milling))
+        ]
+    begin = case Compensation.leadIn passMoves of
+      m : _ -> Segment.start (Toolpath.segment m)
+      [] -> Segment.start (Toolpath.segment (NonEmpty.head (Compensation.cut passMoves)))
 
 -- | All moves of a pass. @swivels@ has, for the start and the end of each segment of the path, the
 -- height of the z axis above its middle position; Nothing without a blade. @cut@ has the moves
 -- along the contour, and @ends@ the ends of the path.
-allMoves :: CuttingPass -> Maybe (NonEmpty (Mm, Mm)) -> NonEmpty Move -> PathEnds -> PassMoves
-allMoves p swivels cut ends =
+allMoves ::
+  CuttingPass ->
+  Maybe (NonEmpty (Mm, Mm)) ->
+  Maybe Way ->
+  NonEmpty Move ->
+  PathEnds ->
+  PassMoves
+allMoves p swivels way cut ends =
   PassMoves
     { Compensation.before,
       Compensation.leadIn = map (Toolpath.atHeights (inZ, inZ)) leadIn,
@@ -153,7 +229,7 @@ allMoves p swivels cut ends =
       Just hs -> (plus (level p) (fst (NonEmpty.head hs)), plus (level p) (snd (NonEmpty.last hs)))
     (before, behind) = case (Part.levels milling, Part.clearance milling) of
       (_ : _, Just travelHeight) ->
-        LinkingMove.withDepth (visit p) travelHeight (inZ, outZ) begin finish
+        LinkingMove.withDepth (visit p) travelHeight (inZ, outZ) way begin finish
       _ -> LinkingMove.withoutDepth (visit p) (level p) (inZ, outZ) begin finish
 
 -- | The region of the first word of the pass's statement.
@@ -246,7 +322,7 @@ leads p PathEnds {endsAtCorner, firstSegment, lastSegment} = (leadIn, leadOut)
     -- length. Then the result is the direction of the element @e@.
     directionOf :: (Segment -> Vec.Vec) -> Segment -> Part.Element -> Vec.Vec
     directionOf direction s e =
-      direction (if Segment.length s > Tolerance.coincident then s else Part.segment e)
+      direction (if Segment.length s > Geometry.coincident then s else Part.segment e)
 
 -- | The distance of the cutter's centre from the contour in a pass without an allowance: 0 when the
 -- centre moves on the contour, else the radius.

@@ -34,9 +34,12 @@ import Report.Fix qualified as Fix
 import Report.Report (Label (..), Report (..), at)
 import Toolpath.CompensationReport (Unsupported (..))
 import Toolpath.CompensationReport qualified as CompensationReport
+import Toolpath.DescentReport (DescentFault)
+import Toolpath.DescentReport qualified as DescentReport
 import Toolpath.ErrorFix qualified as ErrorFix
 import Toolpath.LinkingMoveError (LinkingMoveError)
 import Toolpath.LinkingMoveError qualified as LinkingMoveError
+import Toolpath.Tab (TabFault)
 import Toolpath.Tolerance qualified as Tolerance
 import Toolpath.WarningReport
 
@@ -142,6 +145,11 @@ data Error
   | -- | a pass of a pocket whose loops have too many segments: the statement's first word, the
     -- largest number
     TooManyLoops Region Int
+  | -- | a way down that is not possible
+    NoDescent DescentFault
+  | -- | tabs that have no room: the region of the setting, the length of the raised part of one tab,
+    -- and the fault
+    NoTab Region Mm TabFault
   deriving stock (Eq, Show)
 
 -- | The beginning of a contour to which an approach leads.
@@ -255,6 +263,8 @@ toReport unit err = case err of
           ]
       }
   WrongLink fault -> LinkingMoveError.toReport unit fault
+  NoDescent fault -> DescentReport.toReport unit fault
+  NoTab region long fault -> DescentReport.tabReport unit region long fault
   HoleCuts region p also element deep drill size ->
     ( at
         region

@@ -11,7 +11,7 @@ module Toolpath.FromPart
   )
 where
 
-import Base.Quantity (Mm (..), minus)
+import Base.Quantity (Mm (..), minus, plus)
 import Base.Region (Located (..), Region (..))
 import Base.Result (Result (..))
 import Control.Monad (foldM)
@@ -21,6 +21,7 @@ import Data.List.NonEmpty (NonEmpty (..))
 import Data.List.NonEmpty qualified as NonEmpty
 import Data.Map.Strict qualified as Map
 import Data.Maybe (fromMaybe, isJust, listToMaybe, mapMaybe)
+import Data.Semigroup (sconcat)
 import Data.Vector qualified as Vector
 import Geometry.Carrier qualified as Carrier
 import Geometry.ElementCarrier (ElementCarrier (..))
@@ -49,6 +50,7 @@ import Toolpath.OffsetPath qualified as OffsetPath
 import Toolpath.PocketMove qualified as PocketMove
 import Toolpath.RestMaterial (Remaining (Remaining, positions, tool, word))
 import Toolpath.RestMaterial qualified as RestMaterial
+import Toolpath.Tab qualified as Tab
 import Toolpath.Toolpath (Block (..), Setup (Setup), Toolpath (Toolpath))
 import Toolpath.Toolpath qualified as Toolpath
 import Toolpath.Warning qualified as Warning
@@ -198,9 +200,11 @@ blocksOf State {number, toolRadius, at} operation = case operation of
     lastHeight milling =
       listToMaybe [Part.place s | s <- reverse (Part.approach milling), isJust (Part.level s)]
     passesOf milling =
-      [ (a, z)
+      [ (a, heights)
         | a <- NonEmpty.toList (Part.allowances milling),
-          z <- if null (Part.levels milling) then [heightOf milling] else Part.levels milling
+          heights <- case Part.levels milling of
+            [] -> [(heightOf milling, heightOf milling)]
+            zs -> zip (Part.surface milling : zs) zs
       ]
 
 -- | Marks an inner corner at which the program may write a fillet: the contour is milled as
@@ -229,16 +233,17 @@ roundable milling given e = case e of
 -- | The blocks of all passes of a milling statement. @number@ is the number of the statement in the
 -- order of execution, from 0. @at@ is the position of the cutter before the statement. @side@ is
 -- the cutter's side of the contour; Nothing when its centre moves on the contour. Each pass is
--- given by its allowance and its height.
+-- given by its allowance, the height down to which the material is cut before it, and its height.
 passBlocks ::
   Int ->
   SpacePoint ->
   Located Milling ->
   Maybe Carrier.Side ->
-  [(Mm, Mm)] ->
+  [(Mm, (Mm, Mm))] ->
   Either Error [Block]
-passBlocks number at job side passes =
-  reverse . snd <$> foldM pass (at, []) (zip [1 :: Int ..] passes)
+passBlocks number at job side passes = do
+  tabCentres <- tabsOf job side numbered
+  reverse . snd <$> foldM (pass tabCentres) (at, []) (zip [1 :: Int ..] passes)
   where
     -- All passes share one array, because the many elements of a contour, as a list, would be
     -- scattered over memory.
@@ -246,7 +251,7 @@ passBlocks number at job side passes =
       let es = elements (contour (value job))
        in Vector.fromListN (NonEmpty.length es) (NonEmpty.toList es)
     count = length passes
-    pass before (k, (allowance, level)) = do
+    pass tabCentres before (k, (allowance, (above, level))) = do
       (paths, rests) <- OffsetPath.paths job side numbered allowance
       let cut (from, done) (isFirstPath, isLastPath, path) = do
             b <-
@@ -261,11 +266,35 @@ passBlocks number at job side passes =
                     CuttingPass.from,
                     CuttingPass.allowance,
                     CuttingPass.level,
+                    CuttingPass.above,
+                    CuttingPass.tabCentres,
                     CuttingPass.restMaterial = if isFirstPath then rests else []
                   }
                 path
             Right (LinkingMove.endPosition from (Toolpath.moves b), b : done)
       foldM cut before (withEnds paths)
+
+-- | The positions of the cutter's centre in the middles of the tabs of a statement, on the path of
+-- its last allowance. All passes have their tabs there.
+tabsOf ::
+  Located Milling -> Maybe Carrier.Side -> Vector.Vector Part.Element -> Either Error [Vec.Point]
+tabsOf job side numbered = case (Part.tabs milling, Part.levels milling) of
+  (Just (Located at tabs), lowest : more) -> do
+    let left = NonEmpty.last (Part.allowances milling)
+        bottom = NonEmpty.last (lowest :| more)
+    (paths, _) <- OffsetPath.paths job side numbered left
+    first
+      (NoTab at (Tab.raisedLength tabs (Part.radius milling) bottom))
+      ( Tab.chosen
+          tabs
+          (Part.radius milling)
+          (plus (touchedRadius milling) left)
+          bottom
+          (sconcat paths)
+      )
+  _ -> Right []
+  where
+    milling = value job
 
 -- | Each item with two flags: true for the first one, and true for the last one.
 withEnds :: NonEmpty a -> [(Bool, Bool, a)]

@@ -117,10 +117,11 @@ intrusionsOfBlock machined b = case b of
 -- | The intrusions of the moves of a pass along a contour. Empty for other blocks.
 intrusionsOfPass :: WallIndex -> Block -> [Error]
 intrusionsOfPass machined b = case b of
-  Cutting {job = Located at milling, pass, approach, cut, retract} ->
+  Cutting {job = Located at milling, pass, approach = before, descent, cut, retract} ->
     let left = Just (number pass, minimum (Part.allowances milling))
         linking = Intruder {tool = radius milling, own = Nothing, leaving = left}
         cutting = Intruder {tool = radius milling, own = Just (number pass), leaving = Nothing}
+        approach = before <> descent
         (ahead, onto) = splitAt (length approach - 1) approach
         isClear = null . found linking
         links =
@@ -151,7 +152,7 @@ intrusionsOfPass machined b = case b of
 -- errors. @isClear@ is true of moves that cut nothing that they should not.
 diagnosed :: ([Move] -> Bool) -> Block -> [Error] -> [Error]
 diagnosed isClear b errors = case b of
-  Cutting {job = Located _ milling, approach, cut, retract, sent = Nothing}
+  Cutting {job = Located _ milling, approach, descent, cut, retract, sent = Nothing}
     | Right (Just side') <- leadingSide milling,
       first : more <- [(e, -depth err) | err@(CutsPart _ _ e _ _ _ _) <- errors],
       (element, deepest) <- maximumBy (comparing snd) (first :| more),
@@ -159,7 +160,7 @@ diagnosed isClear b errors = case b of
         LinkingMoveError.diagnosis
           milling
           side'
-          (CheckedMoves approach cut retract isClear)
+          (CheckedMoves (approach <> descent) cut retract isClear)
           (element, Mm deepest) ->
       [WrongLink fault]
   _ -> errors

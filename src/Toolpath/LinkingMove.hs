@@ -4,16 +4,19 @@
 module Toolpath.LinkingMove
   ( Visit (..),
     withDepth,
+    slopeMoves,
     withoutDepth,
     straightMoves,
     rise,
     endPosition,
+    descentPace,
     keyword,
   )
 where
 
 import Base.Quantity (Mm (..))
 import Base.Region (Located (..), Region (..))
+import Data.List.NonEmpty (NonEmpty)
 import Data.Maybe (fromMaybe)
 import Geometry.Segment (Segment (Straight))
 import Geometry.Segment qualified as Segment
@@ -21,6 +24,8 @@ import Geometry.Vec (Point)
 import Geometry.Vec qualified as Vec
 import Part.Part (Milling (feed), SpacePoint (..), Stop)
 import Part.Part qualified as Part
+import Toolpath.Descent (Way)
+import Toolpath.Descent qualified as Descent
 import Toolpath.Toolpath (Manner (Manner), Move (Move))
 import Toolpath.Toolpath qualified as Toolpath
 
@@ -76,14 +81,18 @@ withoutDepth Visit {word, milling, isFirst, isLast, from} z (inZ, outZ) begin fi
 -- stops of the approach precede the first pass only, those of the retract follow the last pass
 -- only. Stops without a height are at the clearance height @clear@. @begin@ and @finish@ are the
 -- ends of the pass, @inZ@ and @outZ@ the heights of the z axis at these ends.
-withDepth :: Visit -> Mm -> (Mm, Mm) -> Point -> Point -> ([Move], [Move])
-withDepth Visit {word, milling, isFirst, isLast, from} clear (inZ, outZ) begin finish =
-  ( up
-      <> over
-      <> down
-      <> straightMoves
-        (SpacePoint (plane above) inZ)
-        [Part.Stop (Located word begin) (Just inZ) pace],
+--
+-- With a way down @way@, the cutter goes straight down where the way begins, to the height of its
+-- beginning. The moves of the way are not in the result.
+withDepth :: Visit -> Mm -> (Mm, Mm) -> Maybe Way -> Point -> Point -> ([Move], [Move])
+withDepth Visit {word, milling, isFirst, isLast, from} clear (inZ, outZ) way begin finish =
+  ( case way of
+      Nothing ->
+        up <> over <> down inZ
+          <> straightMoves
+            (SpacePoint (plane above) inZ)
+            [Part.Stop (Located word begin) (Just inZ) pace]
+      Just w -> up <> over <> down (Descent.entryHeight w),
     leave <> lift <> rest
   )
   where
@@ -96,9 +105,20 @@ withDepth Visit {word, milling, isFirst, isLast, from} clear (inZ, outZ) begin f
     over =
       straightMoves
         (endPosition from up)
-        (if null stops then [Part.Stop (Located word begin) (Just clear) Part.Rapid] else stops)
+        ( case way of
+            Nothing | not (null stops) -> stops
+            Nothing -> [above' begin]
+            Just w -> stops <> straight <> [above' (Descent.entry w)]
+        )
+    -- Straight up to the clearance height from a lower stop, before the move to the way down.
+    straight =
+      [ s {Part.level = Just clear, Part.pace = Part.Rapid}
+        | s <- lastOf stops,
+          Part.level s /= Just clear
+      ]
+    above' p = Part.Stop (Located word p) (Just clear) Part.Rapid
     above = endPosition (endPosition from up) over
-    down = plunge word milling above inZ
+    down = plunge word milling above
     (firstRetract, otherRetracts) = case Part.retract milling of
       s : more | Nothing <- Part.level s -> ([s {Part.level = Just outZ}], more)
       stops' -> ([], stops')
@@ -118,9 +138,22 @@ withDepth Visit {word, milling, isFirst, isLast, from} clear (inZ, outZ) begin f
 -- the program gives no plunge feed. Empty if the cutter is at that height.
 plunge :: Region -> Milling -> SpacePoint -> Mm -> [Move]
 plunge word milling (SpacePoint p z) target =
-  [Move (Straight p p) (Manner (z, target) (Part.At feedDown) False) word False | z /= target]
-  where
-    feedDown = fromMaybe (feed milling) (Part.plunge milling)
+  [Move (Straight p p) (Manner (z, target) (descentPace milling) False) word False | z /= target]
+
+-- | The moves of a way down, at the plunge feed, or at the feed of the statement without one.
+slopeMoves :: Region -> Milling -> Way -> NonEmpty ((Maybe (Mm, Mm)), Move)
+slopeMoves word milling way =
+  fmap
+    ( \s ->
+        ( Descent.along s,
+          Move (Descent.piece s) (Manner (Descent.heights s) (descentPace milling) False) word False
+        )
+    )
+    (Descent.slope way)
+
+-- | The speed of moves down into the material.
+descentPace :: Milling -> Part.Pace
+descentPace milling = Part.At (fromMaybe (feed milling) (Part.plunge milling))
 
 -- | A rapid move straight up to the height @clear@; empty if the cutter is not below that height.
 -- @word@ is the region of the program that asks for the move.

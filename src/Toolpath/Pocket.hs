@@ -26,6 +26,7 @@ module Toolpath.Pocket
     startPoint,
     endPoint,
     segments,
+    firstLoop,
   )
 where
 
@@ -294,6 +295,22 @@ endPoint section = case section of
   AlongLoop _ ss -> Segment.end (NonEmpty.last ss)
   Detour ss -> Segment.end (NonEmpty.last ss)
   DirectLink s -> Segment.end s
+
+-- | The first loop among sections, without its detours. A line before the first loop counts as a
+-- loop of its own; a lifted link is a line of length 0.
+firstLoop :: NonEmpty PocketMove -> NonEmpty Segment
+firstLoop (section :| more) = case section of
+  AlongLoop _ ss -> loop ss more
+  Detour ss -> ss
+  DirectLink s -> s :| []
+  LiftedLink p _ -> Straight p p :| []
+  where
+    loop done others = case others of
+      AlongLoop _ ss : rest | isOpen done -> loop (done <> ss) rest
+      Detour _ : rest | isOpen done -> loop done rest
+      _ -> done
+    isOpen done =
+      not (Vec.isNear (Segment.start (NonEmpty.head done)) (Segment.end (NonEmpty.last done)))
 
 -- | The segments along which a section cuts; none for a lifted link.
 segments :: PocketMove -> [Segment]

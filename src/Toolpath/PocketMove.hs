@@ -24,6 +24,7 @@ import Geometry.Index.BoundingBox qualified as BoundingBox
 import Geometry.Index.BoxTree qualified as BoxTree
 import Geometry.Polyarc qualified as Polyarc
 import Geometry.Segment (Segment (Straight))
+import Geometry.Segment qualified as Segment
 import Geometry.Vec (Point)
 import Geometry.Vec qualified as Vec
 import Offset.Equidistant qualified as Equidistant
@@ -35,7 +36,12 @@ import Part.Part
     SpacePoint (..),
   )
 import Part.Part qualified as Part
+import Toolpath.Descent (Way)
+import Toolpath.Descent qualified as Descent
+import Toolpath.DescentChoice qualified as DescentChoice
+import Toolpath.DescentReport (DescentFault (HelixBehindWall))
 import Toolpath.Error (Error (..))
+import Toolpath.HelixPlace qualified as HelixPlace
 import Toolpath.Inset qualified as Inset
 import Toolpath.LinkingMove (Visit (Visit))
 import Toolpath.LinkingMove qualified as LinkingMove
@@ -89,6 +95,8 @@ data PocketPass = PocketPass
     allowance :: Mm,
     -- | height of the pass
     level :: Mm,
+    -- | height down to which the material is cut before the pass
+    above :: Mm,
     -- | the sections of the pass from a plunge position; for Nothing, the cutter plunges at the
     -- beginning of the first loop. The result is Nothing if there are too many loops
     sectionsFrom :: Maybe Point -> Maybe [PocketMove]
@@ -103,12 +111,14 @@ passesOf pocket currentHeight = concat (NonEmpty.zipWith withAllowance allowance
     allowances = Part.allowances milling
     sections = sectionsFor pocket
     withAllowance allowance sectionsFrom = case clearanceAndLevels milling of
-      Nothing -> [PocketPass {allowance, level = currentHeight, sectionsFrom}]
+      Nothing ->
+        [PocketPass {allowance, level = currentHeight, above = currentHeight, sectionsFrom}]
       -- At every depth the cutter plunges at the same point, and the sections are the same.
       Just (_, levels) ->
-        let down = sectionsFrom (lastApproach milling)
-         in [ PocketPass {allowance, level, sectionsFrom = const down}
-              | level <- NonEmpty.toList levels
+        let down = sectionsFrom (plungePoint milling)
+         in [ PocketPass {allowance, level, above, sectionsFrom = const down}
+              | (above, level) <-
+                  zip (Part.surface milling : NonEmpty.toList levels) (NonEmpty.toList levels)
             ]
 
 -- | The clearance height and the heights of the passes. Nothing for a pocket without a depth; the
@@ -127,9 +137,9 @@ blockOf ::
   Visit ->
   PocketPass ->
   Either Error Block
-blockOf number job rests visit PocketPass {allowance, level, sectionsFrom} = do
+blockOf number job rests visit pass@PocketPass {allowance, level} = do
   (approach, cleared, retract) <-
-    passOf visit (fst <$> clearanceAndLevels milling) (allowance, level) sectionsFrom
+    passOf (value job) visit (fst <$> clearanceAndLevels milling) pass
   Right
     Clearing
       { pocket = job,
@@ -152,20 +162,24 @@ blockOf number job rests visit PocketPass {allowance, level, sectionsFrom} = do
 lastApproach :: Milling -> Maybe Point
 lastApproach milling = value . Part.place <$> listToMaybe (reverse (Part.approach milling))
 
+-- | The position at which the cutter goes down: the last approach point. Nothing if the program
+-- gives none, and for a ramp, which begins on the first loop.
+plungePoint :: Milling -> Maybe Point
+plungePoint milling = case value (Part.descent milling) of
+  Part.Ramping _ -> Nothing
+  _ -> lastApproach milling
+
 -- | The moves before, in and after a pass. @travelHeight@ is the clearance height; Nothing if the
--- pocket has no depth, so that the cutter cannot be lifted. @left@ is the allowance at the walls,
--- @z@ the height of the pass. @sectionsFrom@ gives the sections for a plunge position; for Nothing,
--- the cutter plunges at the beginning of the first loop.
+-- pocket has no depth, so that the cutter cannot be lifted.
 passOf ::
-  Visit ->
-  Maybe Mm ->
-  (Mm, Mm) ->
-  (Maybe Point -> Maybe [PocketMove]) ->
-  Either Error ([Move], NonEmpty Move, [Move])
-passOf visit travelHeight (left, z) sectionsFrom = do
+  Pocketing -> Visit -> Maybe Mm -> PocketPass -> Either Error ([Move], NonEmpty Move, [Move])
+passOf pocket visit travelHeight pass@PocketPass {allowance, level = z, sectionsFrom} = do
   found <- maybe (Left (TooManyLoops word Pocket.mostSegments)) Right (sectionsFrom from)
   sections <- fitting (NonEmpty.nonEmpty found)
   (visit', sections') <- case (sections, travelHeight) of
+    (LiftedLink p _ :| _, Just _)
+      | Part.Helical _ _ <- value (Part.descent milling) ->
+        Left (NoDescent (HelixBehindWall (region (Part.descent milling)) p))
     -- A wall lies between the plunge position and the first loop, so the cutter goes straight to
     -- the clearance height, and moves over the wall at this height.
     (LiftedLink _ q :| next : more, Just c) ->
@@ -177,19 +191,21 @@ passOf visit travelHeight (left, z) sectionsFrom = do
         (Right (visit, sections))
         (\(p, q) -> Left (HasToRise word p q))
         (listToMaybe [(p, q) | LiftedLink p q <- toList sections])
-  let (before, after) =
-        maybe
-          (LinkingMove.withoutDepth visit' z)
-          (LinkingMove.withDepth visit')
-          travelHeight
-          (z, z)
-          (Pocket.startPoint (NonEmpty.head sections'))
-          (Pocket.endPoint (NonEmpty.last sections'))
-  cleared <- fitting (NonEmpty.nonEmpty (concatMap (moves word milling z travelHeight) sections'))
+  way <- maybe (Right Nothing) (const (wayDown (plungePoint milling) sections')) travelHeight
+  let begin = Pocket.startPoint (NonEmpty.head sections')
+      finish = Pocket.endPoint (NonEmpty.last sections')
+      (before, after) = case travelHeight of
+        Nothing -> LinkingMove.withoutDepth visit' z (z, z) begin finish
+        Just clear -> LinkingMove.withDepth visit' clear (z, z) way begin finish
+      slope = maybe [] (slopeTo begin) way
+  along <- movesOf wayDown slopeTo word milling z travelHeight (NonEmpty.toList sections')
+  cleared <- fitting (NonEmpty.nonEmpty (slope <> along))
   Right (before, cleared, after)
   where
     Visit {LinkingMove.word, LinkingMove.milling} = visit
-    fitting = maybe (Left (NoPathInPocket word (contour milling) left)) Right
+    fitting = maybe (Left (NoPathInPocket word (contour milling) allowance)) Right
+    wayDown = wayInPocket pocket pass
+    slopeTo = slopeMoves word milling
     currentPoint = plane (LinkingMove.from visit)
     from = case (travelHeight, lastApproach milling) of
       (Just _, p) -> p
@@ -209,26 +225,75 @@ goingOver word c q milling =
           maybe False (/= c) (Part.level s)
       ]
 
--- | The moves of a section of a pass at the height @z@; @word@ is the region of the statement's
--- first word. A linking move over a wall rises to the clearance height @travelHeight@ and plunges
--- again.
-moves :: Region -> Milling -> Mm -> Maybe Mm -> PocketMove -> [Move]
-moves word milling z travelHeight section = case section of
-  LiftedLink p q
-    | Just c <- travelHeight ->
-      [Move (Straight p p) (Manner (z, c) Part.Rapid False) word False | c /= z]
-        <> [Move (Straight p q) (Manner (c, c) Part.Rapid False) word False]
-        <> [ Move
-               (Straight q q)
-               (Manner (c, z) (Part.At (fromMaybe (feed milling) (Part.plunge milling))) False)
-               word
-               False
-             | c /= z
-           ]
-  _ ->
-    [ Move s (Manner (z, z) (Part.At (feed milling)) False) word False
-      | s <- Pocket.segments section
-    ]
+-- | The way down to the first of some sections; Nothing if the cutter goes straight down. @about@ is
+-- the centre of a helix. If it is Nothing, the helix is near the beginning of the sections.
+wayInPocket ::
+  Pocketing -> PocketPass -> Maybe Point -> NonEmpty PocketMove -> Either Error (Maybe Way)
+wayInPocket pocket PocketPass {allowance, level, above} about sections =
+  case value (Part.descent milling) of
+    Part.Plunging -> Right Nothing
+    Part.Helical _ _ -> choice (fromMaybe (HelixPlace.near reach walls path) about)
+    _ -> choice begin
+  where
+    milling = wall pocket
+    reach = plus (Part.radius milling) allowance
+    walls = map Part.segment (Vector.toList (elementsOf pocket))
+    begin = Pocket.startPoint (NonEmpty.head sections)
+    path = Pocket.firstLoop sections
+    choice p =
+      DescentChoice.inPocket milling reach (above, level) (p, HelixPlace.roomAt walls p) path
+
+-- | The moves of a way down, and the straight move from its end to the point @begin@ at its height.
+slopeMoves :: Region -> Milling -> Point -> Way -> [Move]
+slopeMoves word milling begin way = slope <> [link | not (Vec.isNear end begin)]
+  where
+    slope = map snd (NonEmpty.toList (LinkingMove.slopeMoves word milling way))
+    final = NonEmpty.last (Descent.slope way)
+    end = Segment.end (Descent.piece final)
+    z = snd (Descent.heights final)
+    link = Move (Straight end begin) (Manner (z, z) (Part.At (feed milling)) False) word False
+
+-- | The moves of the sections of a pass at the height @z@; @word@ is the region of the statement's
+-- first word. A linking move over a wall rises to the clearance height @travelHeight@ and goes down
+-- again as the statement asks: @wayDown@ gives the way down to the sections after it, and @slopeTo@
+-- the moves of that way to a point.
+movesOf ::
+  (Maybe Point -> NonEmpty PocketMove -> Either Error (Maybe Way)) ->
+  (Point -> Way -> [Move]) ->
+  Region ->
+  Milling ->
+  Mm ->
+  Maybe Mm ->
+  [PocketMove] ->
+  Either Error [Move]
+movesOf wayDown slopeTo word milling z travelHeight = go
+  where
+    go sections = case sections of
+      [] -> Right []
+      LiftedLink p q : next : more
+        | Just c <- travelHeight -> do
+          way <- wayDown Nothing (next :| more)
+          (overWall c p q way <>) <$> go (next : more)
+      section : more ->
+        ( [ Move s (Manner (z, z) (Part.At (feed milling)) False) word False
+            | s <- Pocket.segments section
+          ]
+            <>
+        )
+          <$> go more
+    overWall c p q way =
+      let down = maybe q Descent.entry way
+          low = maybe z Descent.entryHeight way
+       in [Move (Straight p p) (Manner (z, c) Part.Rapid False) word False | c /= z]
+            <> [Move (Straight p down) (Manner (c, c) Part.Rapid False) word False]
+            <> [ Move
+                   (Straight down down)
+                   (Manner (c, low) (LinkingMove.descentPace milling) False)
+                   word
+                   False
+                 | c /= low
+               ]
+            <> maybe [] (slopeTo q) way
 
 -- | The sections of the passes for each allowance, in the order of the allowances, as functions of
 -- the plunge position. The passes with the first allowance clear the floor, the others finish the

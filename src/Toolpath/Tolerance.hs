@@ -7,6 +7,7 @@
 -- LinuxCNC's interpreter.
 module Toolpath.Tolerance
   ( smallestCutter,
+    alongTabs,
     arcIntrusion,
 
     -- * Cutter compensation
@@ -25,6 +26,10 @@ import Base.Quantity (Mm (..), Rad (..))
 -- | The smallest radius of a cutter that a report suggests.
 smallestCutter :: Mm
 smallestCutter = Mm 0.05
+
+-- | The largest distance from a path, beyond the allowance, of the middle of a tab on it.
+alongTabs :: Mm
+alongTabs = Mm 0.01
 
 -- | The largest depth that an arc of an approach, a retract or a lead may cut into the part. It
 -- allows for coordinates of the program that are rounded to a few thousandths of a millimetre.

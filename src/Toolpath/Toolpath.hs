@@ -12,6 +12,7 @@ module Toolpath.Toolpath
     heights,
     pace,
     isBraked,
+    withPace,
     withoutBraking,
     atHeights,
     moves,
@@ -39,6 +40,7 @@ import Geometry.Carrier (Side)
 import Geometry.Index.BoundingBox qualified as BoundingBox
 import Geometry.Segment (Segment)
 import Geometry.Segment qualified as Segment
+import Geometry.Vec (Point)
 import Offset.Equidistant qualified as Equidistant
 import Part.Part (Command, Cutter, Drilling, Milling, Pace, Pocketing, Solid, SpacePoint (..), Stop)
 import Part.Part qualified as Part
@@ -93,8 +95,13 @@ data Block
       { job :: Located Milling,
         pass :: Pass,
         approach :: [Move],
-        -- | moves along the contour
+        -- | moves of a ramp, a helix or a spiral, and those that follow it to the beginning of the
+        -- cut; empty if the cutter goes straight down
+        descent :: [Move],
+        -- | moves along the contour, raised over the tabs
         cut :: NonEmpty Move,
+        -- | positions of the cutter's centre in the middles of the tabs over which it rises
+        tabs :: [Point],
         retract :: [Move],
         -- | parts of the contour that the cutter does not reach; of several blocks of one pass,
         -- only the first one lists them
@@ -196,6 +203,10 @@ isBraked = isBraking . manner
 atHeights :: (Mm, Mm) -> Move -> Move
 atHeights zs m = m {manner = (manner m) {between = zs}}
 
+-- | Replaces the speed of a move.
+withPace :: Pace -> Move -> Move
+withPace speed m = m {manner = (manner m) {at = speed}}
+
 -- | Removes the braking of a move.
 withoutBraking :: Move -> Move
 withoutBraking m = m {manner = (manner m) {isBraking = False}}
@@ -204,7 +215,8 @@ withoutBraking m = m {manner = (manner m) {isBraking = False}}
 moves :: Block -> [Move]
 moves block = case block of
   Travelling _ _ ms -> ms
-  Cutting {approach, cut, retract} -> approach <> NonEmpty.toList cut <> retract
+  Cutting {approach, descent, cut, retract} ->
+    approach <> descent <> NonEmpty.toList cut <> retract
   Clearing {approach, cleared, retract} -> approach <> NonEmpty.toList cleared <> retract
   Holing _ ms -> ms
   Commanding _ -> []
@@ -312,19 +324,25 @@ end path =
     (concatMap moves (blocks path))
 
 -- | Reduces the cut of each pass to its first and last move, so that a large toolpath needs little
--- memory. The cuts of a blade stay whole, because their heights vary between the ends.
+-- memory. The ramps and helices of a pocket stay. The cuts of a blade, and those over tabs, stay whole, because their heights vary between
+-- the ends.
 withoutCuts :: Toolpath -> Toolpath
 withoutCuts path = foldr seq () abridged `seq` path {blocks = abridged}
   where
     abridged = map shortened (blocks path)
     shortened block = case block of
-      Cutting {job = Located _ milling, cut}
-        | isNothing (Part.gear milling) -> block {cut = endsOf cut}
+      Cutting {job = Located _ milling, tabs, cut}
+        | isNothing (Part.gear milling) && null tabs -> block {cut = endsOf cut}
       Cutting {} -> block
-      Clearing {cleared} -> block {cleared = endsOf cleared}
+      Clearing {cleared} -> block {cleared = endsAndSlopes cleared}
       Travelling {} -> block
       Holing _ _ -> block
       Commanding _ -> block
+    endsAndSlopes ms = case ms of
+      first :| more
+        | any isSlope ms -> first :| (filter isSlope more <> [NonEmpty.last ms | not (null more)])
+      _ -> endsOf ms
+    isSlope m = uncurry (/=) (heights m) && Segment.length (segment m) > Mm 0
     endsOf cutMoves = case cutMoves of
       _ :| [] -> cutMoves
       -- The last move is computed here, so that the result has no reference to the others.

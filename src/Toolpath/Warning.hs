@@ -73,7 +73,7 @@ throughPart path =
     bore = boreRadius path
     -- Moves along a contour are never rapid.
     linkingMoves b = case b of
-      Cutting {approach, retract} -> approach <> retract
+      Cutting {approach, descent, retract} -> approach <> descent <> retract
       _ -> Toolpath.moves b
     index =
       BoxTree.index
@@ -102,7 +102,8 @@ intoContent path
       [] -> []
       b : more -> case b of
         Travelling _ _ ms -> found cleared ms <> go cleared more
-        Cutting {pass, approach, retract} -> around cleared pass approach retract more
+        Cutting {pass, approach, descent, retract} ->
+          around cleared pass (approach <> descent) retract more
         Clearing {pass, approach, retract} -> around cleared pass approach retract more
         Holing _ _ -> go cleared more
         Commanding _ -> go cleared more
@@ -149,7 +150,7 @@ intoHoles path =
     numbered = zip [0 ..] (Toolpath.blocks path)
     linksOf b = case b of
       Travelling _ _ ms -> ms
-      Cutting {approach, retract} -> approach <> retract
+      Cutting {approach, descent, retract} -> approach <> descent <> retract
       Clearing {approach, retract} -> approach <> retract
       Holing _ _ -> []
       Commanding _ -> []

@@ -204,7 +204,7 @@ intoAvoided facts (Located region solid) =
             CutterBody.Cylinder r above <- CutterBody.cylindersOf c
         ]
     widest =
-      foldl' max (Mm 0) [plus r (strays m) | m <- motions subject, Cylinder _ r _ <- cylindersOf m]
+      foldl' max (Mm 0) [plus r (strays m) | m <- unlevelledMotions subject, Cylinder _ r _ <- cylindersOf m]
 
 -- | Collision of a part of the tool in a motion with a body: the lowest height of the tip, and the
 -- top of the body.
@@ -288,7 +288,7 @@ rapidsIntoStock :: Facts -> [StockSolid] -> [Collision]
 rapidsIntoStock facts@Facts {subject, rapidFrames} solids =
   [ collisionOf facts m (Cylinder CutterPart (Mm 0) (Mm 0)) low top (StockLeft p)
     | not (null solids),
-      (k, m) <- zip [0 ..] (motions subject),
+      (k, m) <- zip [0 ..] (unlevelledMotions subject),
       IntSet.member (number m) rapidFrames,
       fst (bounds m) < highestTop,
       (low, top, p) <- take 1 (contacts k m)
@@ -338,7 +338,7 @@ bodiesInStock facts@Facts {subject}
   | not (any hasBody (catMaybes (cutters (path subject)))) = []
   | otherwise =
     [ collisionOf facts m cylinder low (Stock.top solid) (StockLeft p)
-      | (k, m) <- zip [0 ..] (motions subject),
+      | (k, m) <- zip [0 ..] (unlevelledMotions subject),
         (t, c) <- toolsIn facts (number m),
         cylinder@(Cylinder _ r above) <- bodyParts c,
         solid <- solids,
@@ -371,7 +371,7 @@ removalsIn facts@Facts {subject, rapidFrames} =
           Stock.tool = t,
           Stock.openSide = Toolpath.openSideOf (path subject) t
         }
-      | (k, m) <- zip [0 ..] (motions subject),
+      | (k, m) <- zip [0 ..] (unlevelledMotions subject),
         not (IntSet.member (number m) rapidFrames),
         (t, c) <- take 1 (narrowest (toolsIn facts (number m)))
     ]

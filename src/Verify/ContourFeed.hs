@@ -43,7 +43,20 @@ type ContourMotion = (CutterMotion, Motion)
 
 -- | Findings for feeds of the motions along a contour, which are in the order of the tape.
 findings :: Machine -> MillingJob -> [ContourMotion] -> [Finding]
-findings machine job motions
+findings machine job allMotions =
+  Feed.atFeed machine (fromMaybe demanded (Part.plunge (milling job))) [] (map snd descending)
+    <> findingsAtLevel machine job motions
+  where
+    demanded = Part.feed (milling job)
+    -- The cutter goes down from a tab at the plunge feed.
+    (descending, motions) = case Part.tabs (milling job) of
+      Nothing -> ([], allMotions)
+      Just _ -> partition (goesDown . snd) allMotions
+    goesDown m = let (from, to) = Control.height machine m in to < from
+
+-- | Findings for feeds of the motions along a contour that do not go down from a tab.
+findingsAtLevel :: Machine -> MillingJob -> [ContourMotion] -> [Finding]
+findingsAtLevel machine job motions
   | isUniform = Feed.atFeed machine demanded everywhere (map snd motions)
   | otherwise = concatMap ofMotion motions <> slowFindings machine job motions
   where

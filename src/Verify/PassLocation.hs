@@ -51,6 +51,8 @@ data Guide = Guide
     isFlat :: Bool,
     -- | test that a motion swivels a blade as its pass demands
     isSwivelled :: CutterMotion -> Bool,
+    -- | test that a motion goes over tabs as its pass demands
+    isOverTabs :: CutterMotion -> Bool,
     -- | number of the last frame of a pass of a pocket, by the number of the pass from 0; Nothing
     -- if it is unknown
     lastFrameOf :: Int -> Maybe Int,
@@ -148,6 +150,9 @@ locateCut guide state cut =
     searched
       | isFlat guide = candidates
       | isJust (Part.gear milling) = filter (isSwivelled guide) atHeight
+      | Just (Located _ t) <- Part.tabs milling,
+        level < Part.tabTop t =
+        filter (isOverTabs guide) atHeight
       | otherwise = atHeight
     atHeight = filter (MotionSet.isAtHeight (machine guide) level) candidates
     candidates = case cutFramesOf guide (passIndex cut) of

@@ -51,8 +51,8 @@ import Verify.RequiredMove (MotionGroup, RequiredItem)
 import Verify.RequiredMove qualified as RequiredMove
 import Verify.SpindleTool (Tools)
 import Verify.SpindleTool qualified as SpindleTool
-import Verify.Swivel (Levelled (Levelled))
 import Verify.Swivel qualified as Swivel
+import Verify.Tab qualified as Tab
 import Verify.TapeSummary (TapeSummary)
 import Verify.TapeSummary qualified as TapeSummary
 
@@ -67,10 +67,14 @@ data ProofSubject = ProofSubject
     summary :: ~TapeSummary,
     -- | radius of the cutter in each planned frame
     tools :: ~Tools,
-    -- | motions of the cutter's centre on the tape
+    -- | motions of the cutter's centre on the tape; those over tabs have the height of their pass
     motions :: ~[CutterMotion],
+    -- | the same with their own heights over tabs
+    unlevelledMotions :: ~[CutterMotion],
     -- | test that a motion of the tape swivels a blade as its pass demands
     isSwivelled :: CutterMotion -> Bool,
+    -- | test that a motion of the tape goes over tabs as its pass demands
+    isOverTabs :: CutterMotion -> Bool,
     -- | motions of the cutter's centre in the planned frames
     plannedMotions :: ~[CutterMotion],
     -- | bounding-box tree of the motions on the tape
@@ -96,9 +100,14 @@ subjectOf machine path program frames =
       summary = TapeSummary.summarize (Frame.start program) (Frame.plannedFrames program) frames,
       tools,
       motions,
+      unlevelledMotions = swivelled,
       isSwivelled,
+      isOverTabs,
       plannedMotions =
-        Swivel.motions (levelled (fst (run (map Frame.frame (Frame.plannedFrames program))))),
+        Tab.motions
+          ( overTabs
+              (Swivel.motions (levelled (fst (run (map Frame.frame (Frame.plannedFrames program))))))
+          ),
       motionIndex = BoxTree.index Motion.box motions,
       compensationErrors,
       pockets = Pocket.pocketsOf (Toolpath.blocks path),
@@ -107,8 +116,10 @@ subjectOf machine path program frames =
     }
   where
     tools = SpindleTool.plannedTools program
-    Levelled {Swivel.motions, Swivel.isSwivelled} = levelled centreMotions
+    Swivel.Levelled {Swivel.motions = swivelled, Swivel.isSwivelled} = levelled centreMotions
+    Tab.Levelled {Tab.motions, Tab.isOverTabs} = overTabs swivelled
     levelled = Swivel.levelled machine path
+    overTabs = Tab.levelled machine path
     (centreMotions, compensationErrors) = run frames
     run =
       Compensation.runWith
@@ -141,6 +152,7 @@ locatedPasses subject@ProofSubject {machine, path, program} =
       { PassLocation.machine,
         PassLocation.isFlat = isFlat subject,
         PassLocation.isSwivelled = isSwivelled subject,
+        PassLocation.isOverTabs = isOverTabs subject,
         PassLocation.lastFrameOf = (`IntMap.lookup` lastFrames),
         PassLocation.cutFramesOf =
           if isSingle || isDifferent subject

@@ -21,6 +21,8 @@ import Geometry.Vec (Point, Vec)
 import Geometry.Vec qualified as Vec
 import Part.Part (Milling, Pace, SpacePoint (..), Stop)
 import Part.Part qualified as Part
+import Verify.Descent (Slope (Slope))
+import Verify.Descent qualified as Descent
 
 -- | Linking move of the cutter's centre: its path in the plane, its heights at the beginning and at
 -- the end (the top of the part is 0), its speed, and the region of the program that asks for it.
@@ -38,6 +40,10 @@ data Place = Place
     word :: Region,
     side :: Maybe Side,
     level :: Mm,
+    -- | the point above which the way down begins; Nothing if the cutter goes straight down
+    entry :: Maybe Point,
+    -- | the way down, whose moves come before those to the cut; empty if they belong to the cut
+    slopes :: [Slope],
     -- | true for the first and for the last cut of the statement
     isFirst :: Bool,
     isLast :: Bool
@@ -63,6 +69,7 @@ before :: Place -> SpacePoint -> (Point, Vec, Mm) -> [RequiredLink]
 before place at (begin, ahead, z) = approach <> leadIn
   where
     m = milling place
+    downPace = Part.At (fromMaybe (Part.feed m) (Part.plunge m))
     leadIn = map (leadMove place z) (leadOf place (Part.leadIn m) (-1) ahead begin)
     target = case leadIn of
       l : _ -> Segment.start (path l)
@@ -75,8 +82,34 @@ before place at (begin, ahead, z) = approach <> leadIn
         let up = lift place at clear
             over = stopMoves (endOf at up) (atClearance clear place target)
             above = endOf (endOf at up) over
-            down = vertical place above z (Part.At (fromMaybe (Part.feed m) (Part.plunge m)))
-         in up <> over <> down <> stopMoves (SpacePoint (plane above) z) [final]
+            down = vertical place above z downPace
+         in case entry place of
+              Nothing -> up <> over <> down <> stopMoves (SpacePoint (plane above) z) [final]
+              Just p ->
+                let stops =
+                      [overPart clear s | s <- comingStops]
+                        <> straightUp
+                        <> [Part.Stop (Located (word place) p) (Just clear) Part.Rapid]
+                    over' = stopMoves (endOf at up) stops
+                    above' = endOf (endOf at up) over'
+                    slope = map (slopeMove place downPace) (slopes place)
+                 in up <> over'
+                      <> vertical place above' (Descent.highest m (level place)) downPace
+                      <> slope
+                      <> (if null slope then [] else stopMoves (endOf above' slope) [final])
+    straightUp =
+      [ p {Part.level = Just clear, Part.pace = Part.Rapid}
+        | Just clear <- [depthOf m],
+          p <- take 1 (reverse comingStops),
+          maybe False (/= clear) (Part.level p)
+      ]
+    comingStops
+      | isFirst place = Part.approach m
+      | otherwise = take 1 (reverse (Part.approach m))
+
+-- | The move of a part of a way down.
+slopeMove :: Place -> Pace -> Slope -> RequiredLink
+slopeMove place pace (Slope s zs) = RequiredLink s zs pace (word place)
 
 -- | Stops at which the cutter passes over the part before it goes down: all stops of the approach
 -- before the first cut, and only the last one before the others. Without an approach it is the

@@ -22,7 +22,7 @@ import Data.IntSet qualified as IntSet
 import Data.List (find, foldl', mapAccumL, zipWith5)
 import Data.List.NonEmpty (NonEmpty)
 import Data.List.NonEmpty qualified as NonEmpty
-import Data.Maybe (fromMaybe, isJust, isNothing)
+import Data.Maybe (fromMaybe, isJust, isNothing, listToMaybe)
 import Frame.Frame qualified as Frame
 import Geometry.Index.BoundingBox qualified as BoundingBox
 import Geometry.Segment (Segment (Straight))
@@ -38,6 +38,8 @@ import Part.Part (Cutter, Drilling, Milling, Pace, SpacePoint (..))
 import Part.Part qualified as Part
 import Toolpath.Toolpath (Block, Move, Sent, Toolpath)
 import Toolpath.Toolpath qualified as Toolpath
+import Verify.Descent (Slope)
+import Verify.Descent qualified as Descent
 import Verify.Deviation (MillingPass (..))
 import Verify.Deviation qualified as Deviation
 import Verify.Feed qualified as Feed
@@ -120,34 +122,75 @@ itemsOfBlock machine isFlat solids left@(along, clearing) visit = case block of
   Toolpath.Commanding _ -> (left, [])
   Toolpath.Cutting {Toolpath.job, Toolpath.sent = Just s} ->
     ((drop 1 along, clearing), singles (slackOf machine (value job)) (edgeMoves s))
-  Toolpath.Cutting {Toolpath.job = Located region milling, Toolpath.pass, Toolpath.cut} ->
-    ( (drop 1 along, clearing),
-      around
-        milling
-        (placeOf visit region 4 milling pass)
-        cut
-        (map Several (take 1 along))
-    )
+  Toolpath.Cutting
+    { Toolpath.job = Located region milling,
+      Toolpath.pass,
+      Toolpath.descent,
+      Toolpath.cut
+    } ->
+      let slopes = slopesTo milling pass (Toolpath.segment (NonEmpty.head cut)) descent
+       in ( (drop 1 along, clearing),
+            around
+              milling
+              (placeOf visit region 4 milling pass)
+                { RequiredLink.entry = Segment.start . Descent.path <$> listToMaybe slopes,
+                  RequiredLink.slopes
+                }
+              (beginOf milling cut)
+              cut
+              (map Several (take 1 along))
+          )
   Toolpath.Clearing {Toolpath.pocket = Located region p, Toolpath.pass, Toolpath.cleared} ->
     let first = Segment.start (Toolpath.segment (NonEmpty.head cleared))
-        milling = overWall region block first (Part.wall p)
+        isStraight = isStraightDown (Part.wall p)
+        milling = (if isStraight then overWall region block first else id) (Part.wall p)
+        slopes = Descent.inPocket (Part.wall p) (Toolpath.atHeight pass) cleared
+        (start, ahead, z) = beginOf milling cleared
+        entry = if isStraight then Nothing else Just start
      in ( (along, drop 1 clearing),
           around
             milling
-            (placeOf visit region 6 milling pass)
+            (placeOf visit region 6 milling pass) {RequiredLink.entry}
+            (start, ahead, z)
             cleared
-            (map (Several . uncurry (inPocket machine isFlat solids)) (take 1 clearing))
+            (map (Several . uncurry (inPocket machine isFlat solids slopes)) (take 1 clearing))
         )
   where
     BlockVisit begin cutter _ block _ = visit
     pulse = Machine.planeResolution machine
-    around milling place cut group =
-      linksOf milling (RequiredLink.before place begin (beginOf milling cut))
+    around milling place start cut group =
+      linksOf milling (RequiredLink.before place begin start)
         <> group
         <> linksOf milling (RequiredLink.behind place (finishOf milling cut))
     linksOf milling =
       links (slackOf machine milling) . concatMap (linkOver solids cutter (Part.clearance milling))
     overHoles (Located _ drilling) = moveOver solids cutter (Part.travelHeight drilling)
+
+-- | Test that the cutter goes straight down before each pass of a milling.
+isStraightDown :: Milling -> Bool
+isStraightDown milling = value (Part.descent milling) == Part.Plunging
+
+-- | The parts of the way down to a cut that begins with the segment @first@; empty if the way is not
+-- as the statement asks, so that its moves are not required. @descent@ are the moves of the toolpath
+-- before the cut.
+slopesTo :: Milling -> Toolpath.Pass -> Segment -> [Move] -> [Slope]
+slopesTo milling pass first descent =
+  fromMaybe
+    []
+    ( Descent.alongContour
+        milling
+        (Requirement.cutterSide milling)
+        (reach, times widest (plus reach (Mm largest)))
+        (Toolpath.atHeight pass)
+        (Segment.start first)
+        descent
+    )
+  where
+    reach = Requirement.centreDistance milling (Toolpath.left pass)
+    widest = if Part.corners milling == Part.Sharp then 2 else 1
+    Mm largest =
+      maximum
+        (fmap (Part.allowance . Part.finish) (Part.elements (Part.contour milling)))
 
 -- | Way of a rapid linking move, in the plane and in its heights: over the solids that the program
 -- avoids, straight up before and straight down after them, or as it is.
@@ -213,6 +256,8 @@ placeOf (BlockVisit _ _ previous _ next) region letters milling pass =
       RequiredLink.word = region {Region.end = Region.start region + letters},
       RequiredLink.side = Requirement.cutterSide milling,
       RequiredLink.level = Toolpath.atHeight pass,
+      RequiredLink.entry = Nothing,
+      RequiredLink.slopes = [],
       RequiredLink.isFirst = not (any isSame previous),
       RequiredLink.isLast = not (any isSame next)
     }
@@ -367,10 +412,12 @@ atLevels machine isFlat toolpath =
 -- | Group of the motions in one pass of a pocket: those at the height of the pass, and the linking
 -- moves over walls and islands. A linking move rises to the clearance height, or higher over solids
 -- that the program avoids, goes there to another position in the pocket, and plunges. It stays in
--- the bounding box of the pocket. Without heights, only the allowance of a pass shows where it
+-- the bounding box of the pocket. @slopes@ are the parts of the ways down; without them the cutter
+-- plunges to the depth of the pass. Without heights, only the allowance of a pass shows where it
 -- ends: a motion into the allowance belongs to the next pass.
-inPocket :: Machine -> Bool -> [AvoidedSolid] -> Pocket -> ClearingPass -> MotionGroup
-inPocket machine isFlat solids pocket pass =
+inPocket ::
+  Machine -> Bool -> [AvoidedSolid] -> [Slope] -> Pocket -> ClearingPass -> MotionGroup
+inPocket machine isFlat solids slopes pocket pass =
   MotionGroup
     { includes,
       latestBegin = maxBound,
@@ -383,9 +430,12 @@ inPocket machine isFlat solids pocket pass =
     level = Pocket.level pass
     isAt = MotionSet.isSameHeight machine
     pulse = Machine.resolutionOf machine Machine.Z
+    slack = slackOf machine milling
     plungeFeed = Part.At (fromMaybe (Part.feed milling) (Part.plunge milling))
     includes m
-      | isVertical = isInside && maybe False isBetween clear && hasPace verticalPace
+      | isVertical =
+        isInside && maybe False isBetween clear && hasPace verticalPace && (from <= to || isDown)
+      | isSloped && any (Descent.isOn machine slack m) slopes = isInside && hasPace plungeFeed
       | isFlat = isInside && not isRapid && (Pocket.isFinal pass || leavesAllowance s)
       | isAt level from && isAt level to = isInside && not isRapid
       | otherwise =
@@ -399,6 +449,10 @@ inPocket machine isFlat solids pocket pass =
         isInside = Pocket.contains pocket (Segment.at 0.5 s)
         isBetween z =
           minus level pulse <= min from to && (max from to <= plus z pulse || not (null solids))
+        isSloped = not (isAt from to)
+        -- Below the pass before, a ramp or a helix leads down.
+        isDown =
+          isStraightDown milling || plus to pulse >= Descent.highest milling (Pocket.level pass)
         isOverSolid z = not (null solids) && from == to && from >= minus z pulse
         verticalPace = if from < to || any (to >=) clear then Part.Rapid else plungeFeed
         isRapid = hasPace Part.Rapid && not (hasPace (Part.At (Part.feed milling)))

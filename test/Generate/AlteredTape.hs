@@ -28,11 +28,16 @@ program machine = do
   x <- choose (-20, 20)
   deep <- choose (3, 8)
   peck <- choose (0.3, 0.9)
+  inPocket <- elements ["", " ramp 4", " helix pitch 1.5"]
+  round' <-
+    elements ["", " ramp 6", " helix pitch 1.5", " spiral", " tabs 3 width 4 height 1", tabbedRamp]
   statements <-
     shuffle
       [ "pocket window step " <> number r <> " { depth " <> number deep <> " step "
           <> number (deep / 2)
-          <> " plunge 40 }",
+          <> " plunge 40"
+          <> inPocket
+          <> " }",
         "drill at [(" <> number (x + 60) <> ", 3), (" <> number (x + 60) <> ", 33)] depth "
           <> number deep
           <> " { peck "
@@ -44,6 +49,7 @@ program machine = do
           <> number deep
           <> " step "
           <> number (deep / 2)
+          <> round'
           <> " }"
       ]
   count <- choose (1, 3)
@@ -66,6 +72,7 @@ program machine = do
     ]
       <> take count statements
   where
+    tabbedRamp = " ramp 6 tabs 2 width 4 height 1 angle 60"
     number v = Text.pack (showFFloat (Just 3) (v :: Double) "")
 
 -- | The names of the alterations.
@@ -93,10 +100,19 @@ alterations =
     ("a pass dropped", const withoutPass),
     ("a rise dropped", const (changing isRise (const []))),
     ("two frames exchanged", const exchanged),
+    ("a slope too deep, and back", \m -> changing isSlope (\f -> [deeper m f, higher m f])),
+    ("a slope straight down at its end", const (changing isSlope (\f -> [flat f, sunk f]))),
+    ("a slope straight up at its end", const (changing isLift (\f -> [flat f, sunk f]))),
     ("a move in rapid that was at feed", \m -> changing isCut (\f -> [rapid m f]))
   ]
   where
     isDescent p = zOf (frame p) < 0 && isVertical (frame p) && isFeed (frame p)
+    isSlope p = zOf (frame p) < -lowSlope && isFeed (frame p) && isAlong (frame p)
+    isLift p = zOf (frame p) > lowSlope && isFeed (frame p) && isAlong (frame p)
+    -- Slopes of a few pulses may stay within the tolerance.
+    lowSlope = 20
+    flat f = f {increment = let Pulses3 x y _ = increment f in Pulses3 x y 0}
+    sunk f = f {motion = Linear, increment = Pulses3 0 0 (zPulses f), centre = 0}
     isRise p = zOf (frame p) > 0 && isVertical (frame p)
     isCut p = case role p of
       Cutting _ -> motion (frame p) == Linear && isFeed (frame p)
@@ -169,6 +185,10 @@ zOf f = let Pulses n = zPulses f in fromIntegral n
 
 isVertical :: Frame -> Bool
 isVertical f = let Pulses3 x y z = increment f in x == 0 && y == 0 && z /= 0
+
+-- | True for a frame that moves in the plane.
+isAlong :: Frame -> Bool
+isAlong f = let Pulses3 x y _ = increment f in x /= 0 || y /= 0
 
 isFeed :: Frame -> Bool
 isFeed f = motion f /= Rapid && Frame.isMoving f

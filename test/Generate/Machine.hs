@@ -66,7 +66,7 @@ shared = do
         _ -> Nothing
   arcKind <-
     if moving && arcsFit
-      then oneof [pure NoArcs, Arcs <$> arbitrary <*> arbitrary]
+      then oneof [pure NoArcs, Arcs <$> arbitrary <*> arbitrary <*> arbitrary]
       else pure NoArcs
   how <- elements [Increments, Positions]
   feedDigits <- choose (1, 4)
@@ -569,9 +569,12 @@ arc m at = case arcs m of
   _ -> do
     sense <- elements [Clockwise, CounterClockwise]
     full <- arbitrary
-    Pulses3 dx dy _ <- move m at
+    Pulses3 dx dy dz <- move m at
+    let z = case arcs m of
+          Arcs {rising = True} -> dz
+          _ -> 0
     (i, j) <- (,) <$> choose (negate reach, reach) <*> choose (negate reach, reach)
-    pure (sense, if full then 0 else Pulses3 dx dy 0, Pulses2 (Pulses i) (Pulses j))
+    pure (sense, if full then Pulses3 0 0 z else Pulses3 dx dy z, Pulses2 (Pulses i) (Pulses j))
   where
     Pulses reach = centreCapacity m
     sign' = elements [-1, 1]

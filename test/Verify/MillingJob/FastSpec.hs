@@ -96,6 +96,7 @@ firstJob path = case PassLocation.locate guide start [] (Toolpath.blocks path) o
         { machine = iso6983,
           isFlat = True,
           isSwivelled = const False,
+          isOverTabs = const True,
           lastFrameOf = const Nothing,
           cutFramesOf = const Nothing
         }

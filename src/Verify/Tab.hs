@@ -1,0 +1,248 @@
+-- | Motions over tabs, brought to the height of their pass.
+--
+-- A pass below the top of a tab goes up over it. If the heights of a motion are those that the tabs
+-- of the pass demand, the motion gets the height of the pass, so that the comparisons in the plane
+-- take it for a part of the pass. If not, it keeps its heights, and does not count as a motion
+-- along the contour: a cut through a tab leaves excess, and so does a tab where none is asked for.
+--
+-- The toolpath says where the tabs are. That they are as many as the statement asks for, near the
+-- points of the statement, away from corners, and of the right width, height and slope, follows
+-- from the statement alone.
+module Verify.Tab
+  ( Levelled (..),
+    levelled,
+  )
+where
+
+import Base.Quantity (Mm (..), Rad (..), minus, over, plus, times)
+import Base.Region (Located (..))
+import Data.IntSet qualified as IntSet
+import Data.List.NonEmpty qualified as NonEmpty
+import Data.Maybe (catMaybes, fromMaybe, listToMaybe, mapMaybe)
+import Data.Vector (Vector)
+import Data.Vector qualified as Vector
+import Geometry.Carrier (Side)
+import Geometry.Carrier qualified as Carrier
+import Geometry.Distance qualified as Distance
+import Geometry.Index.BoundingBox qualified as BoundingBox
+import Geometry.Index.BoxTree (BoxTree)
+import Geometry.Index.BoxTree qualified as BoxTree
+import Geometry.Segment (Segment (..))
+import Geometry.Segment qualified as Segment
+import Geometry.Tolerance qualified as Tolerance
+import Geometry.Vec (Point)
+import Geometry.Vec qualified as Vec
+import Machine.Machine (Machine)
+import Machine.Machine qualified as Machine
+import Part.Part (Milling, Tabs)
+import Part.Part qualified as Part
+import Toolpath.Toolpath (Toolpath)
+import Toolpath.Toolpath qualified as Toolpath
+import Verify.Motion (CutterMotion (..))
+import Verify.Motion qualified as Motion
+import Verify.Requirement qualified as Requirement
+
+-- | Motions after 'levelled'.
+data Levelled = Levelled
+  { motions :: [CutterMotion],
+    -- | test that a motion has the heights that the tabs of its pass demand. A motion without them
+    -- can be at the height of a pass all the same, where it cuts through a tab
+    isOverTabs :: CutterMotion -> Bool
+  }
+
+-- | Bring the motions over tabs to the heights of their passes. Other motions stay as they are.
+levelled :: Machine -> Toolpath -> [CutterMotion] -> Levelled
+levelled machine path ms
+  | null passes = Levelled {motions = ms, isOverTabs = const True}
+  | otherwise =
+    Levelled
+      { motions = zipWith fromMaybe ms fitting,
+        isOverTabs = \m -> IntSet.member (number m) fitted
+      }
+  where
+    fitting = map (\m -> listToMaybe (mapMaybe (\pass -> levelledIn machine pass m) passes)) ms
+    fitted = IntSet.fromList (map number (catMaybes fitting))
+    passes =
+      [ p
+        | Toolpath.Cutting
+            { Toolpath.job = Located _ milling,
+              Toolpath.pass,
+              Toolpath.tabs
+            } <-
+            Toolpath.blocks path,
+          Just (Located _ asked) <- [Part.tabs milling],
+          Toolpath.atHeight pass < Part.tabTop asked,
+          p <- [tabbedPass milling asked pass tabs]
+      ]
+
+-- | A pass over tabs.
+data TabbedPass = TabbedPass
+  { -- | height of the pass
+    level :: Mm,
+    -- | height of the tops of the tabs, and the tangent of the angle of their sides
+    top :: Mm,
+    rise :: Double,
+    -- | larger of the allowed chord errors
+    tolerance :: Mm,
+    -- | largest distance of the centre from the contour
+    maxReach :: Mm,
+    -- | elements of the contour, by their numbers from 0
+    elements :: BoxTree (Int, Segment),
+    -- | length of the path of the centre up to each element, with that of the whole path at the end
+    starts :: Vector Mm,
+    -- | distance of the centre from each element, and the element
+    offsets :: Vector (Mm, Segment),
+    side :: Maybe Side,
+    -- | places of the middles of the tabs on this path, and the halves of their flats. It is empty
+    -- if the tabs are not where the statement asks for them
+    places :: [(Mm, Mm)]
+  }
+
+-- | A pass over tabs with its facts. @middles@ are the positions of the centre that the toolpath has
+-- in the middles of the tabs.
+tabbedPass :: Milling -> Tabs -> Toolpath.Pass -> [Point] -> TabbedPass
+tabbedPass milling asked Toolpath.Pass {Toolpath.left, Toolpath.atHeight} middles =
+  pass {places = if isAsked then tabs else []}
+  where
+    pass =
+      TabbedPass
+        { level = atHeight,
+          top = Part.tabTop asked,
+          rise = let Rad a = Part.tabSides asked in tan a,
+          tolerance = uncurry max (Part.deviationLimits (Part.tolerance milling)),
+          maxReach = maximum (fmap reachOf es),
+          elements =
+            BoxTree.index
+              (BoundingBox.ofSegment . snd)
+              (zip [0 ..] (map Part.segment (NonEmpty.toList es))),
+          offsets = Vector.fromList (map (\e -> (reachOf e, Part.segment e)) (NonEmpty.toList es)),
+          starts = Vector.fromList (scanl plus (Mm 0) (map pathLength (NonEmpty.toList es))),
+          side,
+          places = []
+        }
+    es = Part.elements (Part.contour milling)
+    side = Requirement.cutterSide milling
+    reachOf e = plus (Requirement.centreDistance milling left) (Part.allowance (Part.finish e))
+    pathLength e = times (magnification side (reachOf e) (Part.segment e)) (lengthOf e)
+    lengthOf = Segment.length . Part.segment
+    chord = plus (Part.tabWidth asked) (times 2 (Part.radius milling))
+    tabs = [(place, f) | p <- middles, Just place <- [placeOf pass p], Just f <- [flatOf pass chord place]]
+    isAsked = case Part.tabPlaces asked of
+      Part.Evenly n -> length tabs == n
+      Part.NearPoints ps ->
+        length tabs == length ps && all (\(Located _ p) -> any (isBeside p) middles) ps
+    -- The contour's point nearest to the tab is the contour's point nearest to the point.
+    isBeside p middle =
+      let foot q = snd (nearestOf (map Part.segment (NonEmpty.toList es)) q)
+       in Vec.distance (foot p) (foot middle) <= Mm 0.01
+
+-- | The least distance of a point from segments, and the nearest point.
+nearestOf :: [Segment] -> Point -> (Mm, Point)
+nearestOf segments p = minimum' [Distance.nearest p s | s <- segments]
+  where
+    minimum' ds = case ds of
+      d : others -> foldl (\a b -> if fst b < fst a then b else a) d others
+      [] -> (Mm 0, p)
+
+-- | The length of the path of the centre for each mm of an element.
+magnification :: Maybe Side -> Mm -> Segment -> Double
+magnification side reach s = case (side, s) of
+  (Just wanted, Arc {start, centre, sweep = Rad a}) ->
+    let Mm r = Segment.radius centre start
+        Mm d = reach
+     in max 0 ((r - Carrier.sideSign wanted * signum a * d) / r)
+  _ -> 1
+
+-- | The place of the path at which the centre is at a point; Nothing away from the contour.
+placeOf :: TabbedPass -> Point -> Maybe Mm
+placeOf pass p = case near of
+  [] -> Nothing
+  first : others ->
+    let (_, i, s) = foldl (\a b -> if distanceOf b < distanceOf a then b else a) first others
+     in Just (plus (starts pass Vector.! i) (times (Distance.nearestFraction p s) (along pass i)))
+  where
+    limit = plus (maxReach pass) (times 2 (tolerance pass))
+    distanceOf (d, _, _) = d
+    near =
+      [ (d, i, s)
+        | (i, s) <-
+            BoxTree.within
+              (BoundingBox.inflate limit (BoundingBox.ofPoints p []))
+              (elements pass),
+          let d = Distance.toPoint p s,
+          d <= limit
+      ]
+
+-- | The length of the path beside an element.
+along :: TabbedPass -> Int -> Mm
+along pass i = minus (starts pass Vector.! (i + 1)) (starts pass Vector.! i)
+
+-- | The position of the centre at a place of the path. A place before the path is its beginning, a
+-- place after it its end.
+positionAt :: TabbedPass -> Mm -> Point
+positionAt pass place = case side pass of
+  Nothing -> p
+  Just wanted -> Carrier.beside wanted reach (Segment.directionAt k s) p
+  where
+    n = Vector.length (offsets pass)
+    i = max 0 (min (n - 1) (Vector.length (Vector.takeWhile (<= place) (starts pass)) - 1))
+    (reach, s) = offsets pass Vector.! i
+    l = along pass i
+    k = if l > Mm 0 then max 0 (min 1 (over (minus place (starts pass Vector.! i)) l)) else 0
+    p = Segment.at k s
+
+-- | Half of the length of a flat around a place: the positions at its ends are @chord@ apart.
+-- Nothing if the path turns too much.
+flatOf :: TabbedPass -> Mm -> Mm -> Maybe Mm
+flatOf pass chord place
+  | apartBy longest < chord = Nothing
+  | otherwise = Just (go (50 :: Int) (times 0.5 chord) longest)
+  where
+    longest = times 0.6 chord
+    apartBy f = Vec.distance (positionAt pass (minus place f)) (positionAt pass (plus place f))
+    go k low high
+      | k == 0 = high
+      | apartBy between < chord = go (k - 1) between high
+      | otherwise = go (k - 1) low between
+      where
+        between = times 0.5 (plus low high)
+
+-- | The motion @m@ at the height of a pass. Nothing if it is away from the contour, or does not have
+-- the right height everywhere.
+levelledIn :: Machine -> TabbedPass -> CutterMotion -> Maybe CutterMotion
+levelledIn machine pass m
+  | all isRight (0 : sampled <> edges) = Just m {fromHeight = level pass, toHeight = level pass}
+  | otherwise = Nothing
+  where
+    (low, high) = Motion.heights m
+    sampled = case segment m of
+      Straight _ _ -> [0.5, 1]
+      Arc {} -> Motion.samples m
+    slack =
+      plus
+        (tolerance pass)
+        (times 1.5 (Machine.planeResolution machine))
+    -- The motion may pass a whole tab between two samples.
+    edges =
+      [ Distance.nearestFraction q (segment m)
+        | (place, f) <- places pass,
+          at <- [minus place f, place, plus place f, minus place (half f), plus place (half f)],
+          let q = positionAt pass at,
+          Distance.toPoint q (segment m) <= slack
+      ]
+    half f = plus f (times (1 / rise pass) (minus (top pass) (level pass)))
+    isRight k =
+      let z = plus low (times k (minus high low))
+       in case placeOf pass (Segment.at k (segment m)) of
+            Nothing -> False
+            Just place ->
+              minus z (demanded (\d -> minus d slack) place) <= heightSlack
+                && minus (demanded (plus slack) place) z <= heightSlack
+    heightSlack = plus (Machine.resolutionOf machine Machine.Z) Tolerance.coincident
+    -- The largest height that the tabs demand at a place, where the distance from a tab is changed
+    -- by the uncertainty of the place.
+    demanded change place = maximum (level pass : map (over' change place) (places pass))
+    over' change place (middle, f) =
+      let Mm d = minus place middle
+          away = minus (change (Mm (abs d))) f
+       in min (top pass) (minus (top pass) (times (rise pass) away))
