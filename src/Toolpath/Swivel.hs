@@ -4,8 +4,9 @@
 -- @μ@ of the surface, through a wheel of the diameter @D2@. In the middle position of the axis the
 -- blade is upright. The height of the axis above that position is @z = ∓π·μ°·D2/360@: minus if the
 -- blade is on the right in the direction of travel, plus if it is on the left (Kolsanova, section
--- 3). On an element without a bevel, the bevel changes linearly with the arc length, from the bevel
--- of the element before to that of the element after.
+-- 3, corrected: the print divides by 360 twice; its paired signs ± ∓ ∓ give the minus on the
+-- right). On an element without a bevel, the bevel changes linearly with the arc length, from the
+-- bevel of the element before to that of the element after.
 module Toolpath.Swivel
   ( axis,
     highest,

@@ -88,7 +88,7 @@ data BladePass = BladePass
 
 -- | Facts about a pass with a blade. The axis turns the blade by a wheel of diameter @D2@. For a
 -- bevel of @μ°@ the axis is above the height of the pass by @z = ∓π·μ°·D2/360@. The sign is minus
--- on the right of the contour and plus on the left (Kolsanova, section 3).
+-- on the right of the contour and plus on the left (Kolsanova, section 3, corrected).
 bladePass :: Machine -> Milling -> Toolpath.Pass -> BladePass
 bladePass machine milling Toolpath.Pass {Toolpath.left, Toolpath.atHeight} =
   BladePass
