@@ -2,7 +2,7 @@
 module FlangeSpec (spec) where
 
 import Base.Decimal qualified as Decimal
-import Base.Quantity (Mm (..))
+import Base.Quantity (Mm (..), Seconds (..))
 import Compile (Analysis (..))
 import Data.List.NonEmpty qualified as NonEmpty
 import Data.Text qualified as Text
@@ -49,6 +49,11 @@ spec = do
     page
       `shouldSatisfy` Text.isInfixOf
         (maybe "?" (Decimal.fixed 2) (Tape.metres lkp01f Flange.tape) <> " m")
+  -- 2322 rows at 300 rows a minute: 7.74 min = 464.4 s.
+  it "its tape takes 464.4 s to punch" $ do
+    Tape.rowCount Flange.tape `shouldBe` 2322
+    fmap (\(Seconds t) -> Decimal.fixed 6 t) (Tape.punchingTime lkp01f Flange.tape)
+      `shouldBe` Just "464.400000"
   it "README.md shows the program of examples/" $ do
     page <- Text.readFile "README.md"
     page `shouldSatisfy` Text.isInfixOf (Text.strip (snd (Text.breakOn "part flange" Flange.text)))

@@ -68,17 +68,19 @@ tapeRows :: Machine -> [[Text]]
 tapeRows m =
   [ ["tracks", Decimal.whole (tracks t)],
     ["from row to row", maybe "a text, not punched" Decimal.mm (pitch t)],
-    ["width", maybe "-" Decimal.mm (width t)],
-    ["name of the file", "ends with ." <> suffix t],
-    ["leader and trailer", blanks (leader t) <> " each"],
-    [ "behind a frame",
-      blanks (gap t)
-        <> if evenShift t == 0
-          then ""
-          else "; before an even frame " <> Decimal.whole (evenShift t) <> " more"
-    ],
-    ["further blank rows", case spare t of Counted -> "none"; Skipped -> "passed over"]
+    ["width", maybe "-" Decimal.mm (width t)]
   ]
+    <> [["punch", "at most " <> Decimal.exact r <> " rows a minute"] | Just r <- [punchRate t]]
+    <> [ ["name of the file", "ends with ." <> suffix t],
+         ["leader and trailer", blanks (leader t) <> " each"],
+         [ "behind a frame",
+           blanks (gap t)
+             <> if evenShift t == 0
+               then ""
+               else "; before an even frame " <> Decimal.whole (evenShift t) <> " more"
+         ],
+         ["further blank rows", case spare t of Counted -> "none"; Skipped -> "passed over"]
+       ]
     <> [["before the first frame", quoted (opening t)] | opening t /= ""]
     <> [["behind the last frame", quoted (closing t)] | closing t /= ""]
     <> [ ["limit", "at most " <> Decimal.whole k <> " contours"]

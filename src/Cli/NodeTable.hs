@@ -272,6 +272,7 @@ tapeRows machine Punched {program, tape, files} =
     ]
   ]
     <> [["tape", Decimal.fixed 2 metres, "m"] | Just metres <- [Tape.metres machine tape]]
+    <> [["time to punch it", seconds t, "s"] | Just t <- [Tape.punchingTime machine tape]]
 
 -- Moves -------------------------------------------------------------------------------------------
 

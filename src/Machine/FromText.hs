@@ -216,6 +216,7 @@ tapeFrom s = do
     <$> required "tracks" "tracks 8" (countFrom "tracks" 1 8) section
     <*> required "pitch" "pitch 2.54 mm" pitchFrom section
     <*> optional "width" Nothing widthFrom section
+    <*> optional "punch" Nothing punchFrom section
     <*> required "suffix" "suffix \"tape\"" suffixFrom section
     <*> required "leader" "leader 25" (countFrom "leader" 0 mostRows) section
     <*> required "gap" "gap 3" (countFrom "gap" 0 mostRows) section
@@ -224,7 +225,7 @@ tapeFrom s = do
     <*> optional "opening" "" quotedText section
     <*> optional "closing" "" quotedText section
     <* allowKeys
-      (Text.words "tracks pitch width suffix leader gap even-shift spare opening closing")
+      (Text.words "tracks pitch width punch suffix leader gap even-shift spare opening closing")
       []
       section
   where
@@ -237,6 +238,10 @@ tapeFrom s = do
     widthFrom = withArguments ["width 25.4 mm"] oneWidth
     oneWidth args = case args of
       [a, b] -> fmap (Just . Mm) <$> quantityIn "the width" "mm" 1000 a b
+      _ -> Nothing
+    punchFrom = withArguments ["punch 300 rows/min"] oneRate
+    oneRate args = case args of
+      [a, b] -> fmap Just <$> quantityIn "the speed of the punch" "rows/min" 100000 a b
       _ -> Nothing
     suffixFrom e = do
       t <- quotedText e

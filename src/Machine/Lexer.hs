@@ -81,7 +81,7 @@ tokensFrom formula at rest = case Text.uncons rest of
 -- a formula; @c@ is the first character of @rest@.
 token :: Bool -> Char -> Text -> (Token_, Int)
 token formula c rest
-  | Just unit <- find (`Text.isPrefixOf` rest) ["mm/min", "mm/rev", "mm/s2", "rows/s"] =
+  | Just unit <- find (`Text.isPrefixOf` rest) ["mm/min", "mm/rev", "mm/s2", "rows/min", "rows/s"] =
     (Name unit, Text.length unit)
   | isAlpha c || c == '_' = let w = word formula rest in (Name w, Text.length w)
   | isDigit c = numeral rest

@@ -19,6 +19,8 @@ data Medium = Medium
     pitch :: Maybe Mm,
     -- | width of the tape; 'Nothing' for that of the standard
     width :: Maybe Mm,
+    -- | highest speed of the tape punch, in rows per minute; 'Nothing' if it is not known
+    punchRate :: Maybe Double,
     -- | extension of a file's name, without the point
     suffix :: Text,
     -- | number of blank rows in the leader at the start of the tape; the trailer at its end has as

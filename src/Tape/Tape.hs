@@ -3,10 +3,11 @@ module Tape.Tape
   ( Tape (..),
     rowCount,
     metres,
+    punchingTime,
   )
 where
 
-import Base.Quantity (Mm (..))
+import Base.Quantity (Mm (..), Seconds (..))
 import Data.ByteString (ByteString)
 import Data.ByteString qualified as ByteString
 import Machine.Machine (Machine)
@@ -28,3 +29,12 @@ metres :: Machine -> Tape -> Maybe Double
 metres machine tape = case Machine.pitch (Machine.medium machine) of
   Nothing -> Nothing
   Just (Mm pitch) -> Just (fromIntegral (rowCount tape) * pitch / 1000)
+
+-- | Least time in which a tape can be punched: the number of rows divided by the highest speed of
+-- the punch. 'Nothing' if the machine reads a text, or if the speed of its punch is not known.
+punchingTime :: Machine -> Tape -> Maybe Seconds
+punchingTime machine tape = case (Machine.pitch medium, Machine.punchRate medium) of
+  (Just _, Just rate) -> Just (Seconds (60 * fromIntegral (rowCount tape) / rate))
+  _ -> Nothing
+  where
+    medium = Machine.medium machine

@@ -95,6 +95,7 @@ blankMachine forms arcKind how feedTable =
           { tracks = 8,
             pitch = Just (Mm 2.54),
             width = Nothing,
+            punchRate = Nothing,
             suffix = "tape",
             leader = 0,
             gap = 0,
@@ -247,11 +248,13 @@ mediumOf tracks spare mark = do
   opening <- elements ["", mark, mark <> mark]
   closing <- elements ["", mark <> mark]
   width <- elements [Nothing, Just (Mm 17.5), Just (Mm 25.4)]
+  punchRate <- elements [Nothing, Just 300, Just 62.5]
   pure
     Medium
       { tracks,
         pitch = Just (Mm 2.54),
         width,
+        punchRate,
         suffix = "tape",
         leader,
         gap,

@@ -115,6 +115,9 @@ builtInMachines = do
   it "give the frames of lkp-01f four digits of x, four of y, three of z and one of the feed" $
     fmap (\m -> [(contentName (content w), digits (form w)) | w <- wordsOf m]) (found "lkp-01f")
       `shouldBe` Just [("x", 4), ("y", 4), ("z", 3), ("feed", 1)]
+  it "have the speed of the punch that Ural prints, 300 rows a minute, and no other" $
+    [(n, r) | m <- BuiltIn.machines, let MachineName n = name m, Just r <- [punchRate (medium m)]]
+      `shouldBe` [("lkp-01f", 300)]
   it "move z on Контур-3П-68, but not on lkp-01f and Контур-2П" $
     map (fmap drivenAxes . found) ["lkp-01f", "kontur-2p", "kontur-3p"]
       `shouldBe` [Just [X, Y], Just [X, Y], Just [X, Y, Z]]

@@ -54,6 +54,7 @@ tapeLines t =
     "pitch " <> maybe "none" millimetres (pitch t)
   ]
     <> ["width " <> millimetres w | Just w <- [width t]]
+    <> ["punch " <> Decimal.exact r <> " rows/min" | Just r <- [punchRate t]]
     <> [ "suffix " <> quoted (suffix t),
          "leader " <> Decimal.whole (leader t),
          "gap " <> Decimal.whole (gap t),
