@@ -5,7 +5,6 @@ module Machine.Completeness
   )
 where
 
-import Base.Decimal qualified as Decimal
 import Base.Quantity (Mm (..))
 import Base.Quantity qualified as Quantity
 import Base.Region (Located (..), Region)
@@ -117,18 +116,14 @@ data LocatedBit = LocatedBit
     isOptional :: Bool
   }
 
--- | Checks the holes in the service track. The rules: each bit of a command occurs once, in a word
--- that every frame contains. The bits of a command have all numbers from 0 to the highest one. A
--- command with bits has no word of its own. At most one hole is a 'BrakingHole', which makes the
--- machine slow down.
+-- | Checks the holes in the service track. The rules: each bit of a command occurs in words that
+-- every frame contains. It may occur at several digits, which then all have its hole, or none of
+-- them. The bits of a command have all numbers from 0 to the highest one. A command with bits has
+-- no word of its own. At most one hole is a 'BrakingHole', which makes the machine slow down.
 bitFaults :: [(Region, Word')] -> [Error]
 bitFaults locatedWords =
   concat
-    [ [ BadService (wordRegion b) (SameMeaning (bitText b))
-        | (k, b) <- zip [0 ..] bits,
-          any (isSameBit b) (take k bits)
-      ],
-      [BadService r (BitGap (commandText c)) | (r, c) <- firsts, hasGap c],
+    [ [BadService r (BitGap (commandText c)) | (r, c) <- firsts, hasGap c],
       [ BadService (wordRegion b) (OptionalBits (commandText (command b)))
         | b <- bits,
           isOptional b
@@ -151,12 +146,10 @@ bitFaults locatedWords =
     firsts =
       Map.elems
         (Map.fromListWith (\_ first -> first) [(command b, (wordRegion b, command b)) | b <- bits])
-    isSameBit a b = command a == command b && bit a == bit b
     hasGap c =
       let ks = nub (sort [bit b | b <- bits, command b == c])
        in ks /= [0 .. length ks - 1]
     commandText (CommandName n) = n
-    bitText b = commandText (command b) <> ":" <> Decimal.whole (bit b)
 
 -- | True if the weights of the digits have every remainder modulo @modulus@, so that there is a
 -- check digit for each sum.

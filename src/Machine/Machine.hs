@@ -101,7 +101,7 @@ module Machine.Machine
 where
 
 import Base.Quantity (LengthUnit (..), Mm (..), Pulses (..), Seconds (..), millimetresIn)
-import Data.List (foldl')
+import Data.List (foldl', nub)
 import Data.List.NonEmpty (NonEmpty (..))
 import Data.List.NonEmpty qualified as NonEmpty
 import Data.Map.Strict qualified as Map
@@ -355,7 +355,8 @@ commandCapacity machine command =
     ([], []) -> Nothing
     ([], ks) -> Just (sum (map (2 ^) ks))
   where
-    bits = [k | w <- wordsOf machine, CommandBit c k <- service (form w), c == command]
+    -- A bit may have holes at several digits.
+    bits = nub [k | w <- wordsOf machine, CommandBit c k <- service (form w), c == command]
 
 -- | Count of digits after the decimal point in the word of a command; 0 without such a word.
 commandDecimals :: Machine -> CommandName -> Int

@@ -25,6 +25,7 @@ import Base.PulseVector (Pulses2 (..), Pulses3 (..))
 import Base.Quantity (Pulses (..))
 import Data.ByteString.Short (ShortByteString)
 import Data.ByteString.Short qualified as Short
+import Data.Containers.ListUtils (nubOrd)
 import Data.Functor.Identity (runIdentity)
 import Data.List (find, foldl')
 import Data.Maybe (fromMaybe, isJust)
@@ -307,8 +308,10 @@ frameOf layout state begin reading = do
               Positions -> n - ModalState.about a (rotation state)
 
 -- | Commands of a frame in the order of the layout, each with its number. The number of a command
--- that is written in bits is the sum of their values. A command with the number 0 is left out if 0
--- means that the frame has no such command, see 'ModalState.isZeroCommand'.
+-- that is written in bits is the sum of their values, each bit once. If a bit has holes at several
+-- digits and only some of them are punched, the frame that is written again differs. A command
+-- with the number 0 is left out if 0 means that the frame has no such command, see
+-- 'ModalState.isZeroCommand'.
 commandsOf :: PreparedLayout -> Reading -> [(Machine.CommandName, Int)]
 commandsOf layout reading
   | null (commandNumbers reading) = []
@@ -317,7 +320,7 @@ commandsOf layout reading
       | (o, isZeroCommand) <- Layout.commandWords layout,
         let vs = [v' | (o', v') <- commandNumbers reading, o' == o],
         not (null vs),
-        let v = sum vs,
+        let v = sum (nubOrd vs),
         v /= 0 || isZeroCommand
     ]
 

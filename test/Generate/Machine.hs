@@ -9,6 +9,7 @@ import Base.PulseVector (Pulses2 (..), Pulses3 (..))
 import Base.Quantity (Mm (..), Pulses (..), radians)
 import Data.Bits (shiftL, (.|.))
 import Data.Char (intToDigit, ord)
+import Data.List (nub)
 import Data.List.NonEmpty qualified as NonEmpty
 import Data.Map.Strict (Map)
 import Data.Map.Strict qualified as Map
@@ -199,7 +200,8 @@ fixedWords s = do
   axisDigits <- choose (2, 6)
   centreDigits <- choose (2, 6)
   numberDigits <- choose (0, 3)
-  orderBits <- arbitrary
+  -- The axes whose words have the bits of a command: none, the first, or the first and the second.
+  axesWithBits <- choose (0, 2)
   orderWord <- arbitrary
   axisWords <-
     traverse
@@ -207,7 +209,7 @@ fixedWords s = do
           signed
             (Along a)
             axisDigits
-            ( if orderBits && [a] == take 1 (used s)
+            ( if a `elem` take axesWithBits (used s)
                 then
                   [ CommandBit (CommandName "bits") (k - 1)
                     | k <- [axisDigits - 1, axisDigits - 2 .. 1]
@@ -586,7 +588,7 @@ arc m at = case arcs m of
 -- | The commands of a machine in the order of its words.
 orderNames :: Machine -> [CommandName]
 orderNames m =
-  concat
+  nub . concat $
     [ [o | Command o <- [content w]] <> take 1 [o | CommandBit o _ <- service (form w)]
       | w <- wordsOf m
     ]
