@@ -21,6 +21,7 @@ import Machine.Machine qualified as Machine
 import Pulse.FramePath (AskedFeed, feedText, roundedDown)
 import Report.Report (Report (..), ReportPlace (..), report)
 import Report.Report qualified as Report
+import Tape.FrameRecord (RecordObstacle (..))
 
 -- | Error of a file or of the command line.
 data Error
@@ -43,6 +44,8 @@ data Error
     NothingInRange Text Int
   | -- | The tape of this machine is a text, so there is nothing to draw.
     NotPunched Text
+  | -- | The frames of this machine have no record in letters and digits.
+    NoRecord Text RecordObstacle
   | -- | No program that converts drawings is installed.
     NoRenderer
   | -- | No installed program could convert the drawing: the name of the last one, and what it said.
@@ -144,6 +147,21 @@ toReport err = case err of
   NotPunched machine ->
     (wrong "E0819" InFile ("the tape of " <> machine <> " is a text, without holes"))
       { hints = ["Leave -o out: then its lines are printed with their meaning."]
+      }
+  NoRecord machine obstacle ->
+    (wrong "E0824" InFile ("the frames of " <> machine <> " have no record in letters and digits"))
+      { message =
+          [ case obstacle of
+              LinesOfFile -> "The control reads the lines of a file."
+              NoAddress -> "Their words have no letters; the place of a word gives its meaning."
+              HolesBesideDigits -> "Holes beside the digits have a meaning of their own."
+          ],
+        hints =
+          [ case obstacle of
+              LinesOfFile -> "Write the file: partc compile. Or leave --record out for the table."
+              NoAddress -> noRows
+              HolesBesideDigits -> noRows
+          ]
       }
   NoRenderer ->
     (wrong "E0820" InFile "no program that makes PNG or PDF of a drawing is installed")
@@ -283,6 +301,7 @@ toReport err = case err of
       }
   where
     wrong = report Report.Error
+    noRows = "Leave --record out for the table. Or print the rows of the tape: partc tape."
 
 -- | The reason why a file cannot be read, without a report code and without the name of the file.
 -- It completes the sentence of another report, such as the report on an @import@ statement.

@@ -1,5 +1,7 @@
 -- | Frames as a table or as JSON lines. Increments, turns and arc centres are in pulses, positions
--- in mm, feeds in mm\/min. The column @speed@ has the feed code, by which the tape names a feed.
+-- in mm, feeds in mm\/min. The column @speed@ has the feed code, by which the tape names a feed. If
+-- the feed codes of the machine are frequencies, as on the Контур, there are columns for the pulses
+-- per second of each axis.
 module Cli.FrameTable
   ( frames,
     framesJson,
@@ -54,6 +56,7 @@ frames unit machine source program = table columns rows
       ]
         <> map (via (frame . planned)) (motionColumns machine all')
         <> [Column ToRight "speed" (speedWord . frame . planned), Column ToRight feedTitle feedOf]
+        <> map (via (frame . planned)) (frequencyColumns machine all')
         <> map (via (frame . planned)) (brakeColumn all')
         <> [ Column ToRight "to x" (coordinate . Vec.x . endOf),
              Column ToRight "to y" (coordinate . Vec.y . endOf)
@@ -69,8 +72,9 @@ frames unit machine source program = table columns rows
     feedTitle = Decimal.unitText unit <> "/min"
 
 -- | The frames of a program as JSON, one object on each line. Every object has all fields, except
--- that only arcs have @centre@, only frames of machines with rotary axes have @turn@, and only
--- frames with a feed for one turn of the spindle have @feedPerTurn@, in mm; a feed that is not
+-- that only arcs have @centre@, only frames of machines with rotary axes have @turn@, only straight
+-- frames of machines whose feed codes are frequencies have @frequencies@, in pulses per second, and
+-- only frames with a feed for one turn of the spindle have @feedPerTurn@, in mm; a feed that is not
 -- known is @null@.
 framesJson :: Machine -> Source -> FrameProgram -> Text
 framesJson machine source program = Text.concat (map row (numbered program))
@@ -101,6 +105,13 @@ framesJson machine source program = Text.concat (map row (numbered program))
                      "line" .= lineOf source (planned n)
                    ]
                 <> ["feedPerTurn" .= d | Just d <- [Machine.forTurn machine (feedCode f)]]
+                <> [ "frequencies"
+                       .= object
+                         [ Key.fromText (Machine.contentName (Machine.Along a)) .= hertz
+                           | (a, hertz) <- found
+                         ]
+                     | found@(_ : _) <- [FeedCode.frequencies machine f]
+                   ]
             )
     jsonLine pairs =
       Encoding.decodeUtf8
@@ -134,7 +145,7 @@ decoded machine fs = table columns (zip [1 :: Int ..] fs)
                "mm/min"
                (feedWord Millimetres machine . snd)
            ]
-        <> map (via snd) (brakeColumn fs <> commandColumns fs)
+        <> map (via snd) (frequencyColumns machine fs <> brakeColumn fs <> commandColumns fs)
 
 table :: [Column a] -> [a] -> Text
 table columns rows =
@@ -170,6 +181,17 @@ motionColumns machine fs =
   where
     pulses (Pulses n) = Decimal.whole n
     ofCentre get f = if isArc f then pulses (get (centre f)) else ""
+
+-- | A column of the pulses per second for each axis that some frame moves; the empty list on a
+-- machine whose feed codes are no frequencies.
+frequencyColumns :: Machine -> [Frame] -> [Column Frame]
+frequencyColumns machine fs =
+  [ Column ToRight ("Hz " <> Machine.contentName (Machine.Along axis)) (frequencyWord axis)
+    | axis <- [Machine.X, Machine.Y, Machine.Z],
+      any (maybe False (> 0) . lookup axis . FeedCode.frequencies machine) fs
+  ]
+  where
+    frequencyWord axis f = maybe "" (Decimal.short 3) (lookup axis (FeedCode.frequencies machine f))
 
 -- | A column that marks the frames of braking sections; the empty list if no frame brakes.
 brakeColumn :: [Frame] -> [Column Frame]

@@ -4,6 +4,7 @@ module Cli.Options
     CompileOptions (..),
     RunOptions (..),
     RunForm (..),
+    FrameForm (..),
     PreviewOptions (..),
     Invocation (..),
     parser,
@@ -48,8 +49,8 @@ data Subcommand
     -- change tools; without a file, the tape that the compiler makes of the program is proven; true
     -- to prove the pulses of the controller, too
     Verify FilePath (Maybe Text) [FilePath] Bool
-  | -- | the program, the machine, true for JSON lines instead of a table
-    Frames FilePath (Maybe Text) Bool
+  | -- | the program, the machine, the form of the list
+    Frames FilePath (Maybe Text) FrameForm
   | -- | the program, the machine
     Report FilePath (Maybe Text)
   | -- | the input sheet, the program to write
@@ -133,6 +134,11 @@ data RunForm
     TimelinePicture (Maybe (Int, Int)) (Maybe FilePath)
   deriving stock (Eq, Show)
 
+-- | Form in which frames are listed: a table, JSON lines, or the record of each frame in letters
+-- and digits.
+data FrameForm = FramesAsTable | FramesAsJson | FrameRecords
+  deriving stock (Eq, Show)
+
 -- | The parser of the whole command line; the argument is the version of partc.
 parser :: String -> ParserInfo Invocation
 parser version =
@@ -177,7 +183,7 @@ commands =
         "frames"
         "List the frames of a program"
         "partc frames flange.part -t lkp-01f --json"
-        (Frames <$> program <*> optional target <*> jsonFlag),
+        (Frames <$> program <*> optional target <*> frameForm),
       entry
         "report"
         "Tables of nodes, lengths and times"
@@ -380,8 +386,15 @@ runFormOption =
         )
     <|> pure RunAsTable
 
-jsonFlag :: Parser Bool
-jsonFlag = Opt.switch (Opt.long "json" <> Opt.help "One JSON object a line")
+frameForm :: Parser FrameForm
+frameForm =
+  Opt.flag' FramesAsJson (Opt.long "json" <> Opt.help "One JSON object a line")
+    <|> Opt.flag'
+      FrameRecords
+      ( Opt.long "record"
+          <> Opt.help "One frame a line, in the letters and digits of the machine's code"
+      )
+    <|> pure FramesAsTable
 
 pulsesFlag :: Parser Bool
 pulsesFlag =

@@ -34,7 +34,7 @@ import Cli.InputFile
 import Cli.LanguageServer qualified as LanguageServer
 import Cli.MachineTable qualified as MachineTable
 import Cli.NodeTable qualified as NodeTable
-import Cli.Options (CompileOptions (..), Invocation (..), Subcommand (..))
+import Cli.Options (CompileOptions (..), FrameForm (..), Invocation (..), Subcommand (..))
 import Cli.Outcome (evaluated, failWith, failWithReport, printResult, whenSound)
 import Cli.Output (Exit (..), Reporter)
 import Cli.Output qualified as Output
@@ -84,6 +84,7 @@ import Sheet.ToText qualified as Sheet
 import Sheet.Unsupported qualified as Unsupported
 import System.FilePath (takeFileName)
 import Tape.Damage (Damage)
+import Tape.FrameRecord qualified as FrameRecord
 import Tape.Punch qualified as Tape
 import Tape.Tape (Tape (..))
 import Toolpath.Toolpath qualified as Toolpath
@@ -105,7 +106,7 @@ perform reporter command = case command of
   Compile options -> compile reporter options
   Check targets files -> maximum <$> traverse (check reporter targets) (NonEmpty.toList files)
   Verify file target tape withPulses -> verify reporter file target tape withPulses
-  Frames file target asJson -> frames reporter file target asJson
+  Frames file target form -> frames reporter file target form
   Report file target -> report reporter file target
   Import file output -> importSheet reporter file output
   ExportSheet file output -> exportSheet reporter file output
@@ -319,16 +320,24 @@ verifyTape reporter given tapeFile compiled pulses =
         (printResult reporter . ("\n" <>) . PulseProofTable.pulseProof)
         (output result)
 
--- | Prints the frames of a program: as JSON lines if @asJson@ is true, otherwise as a table.
-frames :: Reporter -> FilePath -> Maybe Text -> Bool -> IO Exit
-frames reporter file target asJson = withInput reporter file (maybeToList target) $ \given ->
+-- | Prints the frames of a program in the given form. The record of the frames is an error on a
+-- machine whose frames have none.
+frames :: Reporter -> FilePath -> Maybe Text -> FrameForm -> IO Exit
+frames reporter file target form = withInput reporter file (maybeToList target) $ \given ->
   settled reporter given (onFirstMachine target given) $
-    \compiled@Compiled {Compile.machine, Compile.punched} ->
-      printResult
-        reporter
-        (table (unitOf compiled) machine (source given) (program punched))
+    \compiled@Compiled {Compile.machine, Compile.punched} -> case form of
+      FramesAsTable ->
+        listed (FrameTable.frames (unitOf compiled) machine (source given) (program punched))
+      FramesAsJson -> listed (FrameTable.framesJson machine (source given) (program punched))
+      FrameRecords -> case FrameRecord.obstacle machine of
+        Nothing ->
+          let start = Frame.start (program punched)
+           in listed (Text.unlines (FrameRecord.records machine start (framesOf punched)))
+        Just obstacle ->
+          let MachineName machineName = Machine.name machine
+           in failWith reporter (name given) (NoRecord machineName obstacle)
   where
-    table unit = if asJson then FrameTable.framesJson else FrameTable.frames unit
+    listed = printResult reporter
 
 -- | The unit in which the results of a compiled program are printed.
 unitOf :: Compiled -> LengthUnit

@@ -8,6 +8,7 @@ module Frame.FeedCode
     turnCode,
     cutCode,
     feedOf,
+    frequencies,
     frameLength,
     codeValue,
     rapidFeed,
@@ -22,7 +23,7 @@ import Base.Quantity (Feed (..), Mm (..), Pulses (..))
 import Frame.Frame (Frame (..), FrameMotion (..))
 import Frame.Frame qualified as Frame
 import Geometry.Segment qualified as Segment
-import Machine.Machine (FeedChoice (..), FeedCode, FeedMeasure (..), Machine)
+import Machine.Machine (Axis (..), FeedChoice (..), FeedCode, FeedMeasure (..), Machine)
 import Machine.Machine qualified as Machine
 import Part.CutFeed (CutFeed (..))
 import Part.CutFeed qualified as CutFeed
@@ -56,6 +57,24 @@ feedOf machine f l = case motion f of
       fmap
         (\x -> Feed (maybe x (\n -> 60 * x / n) (pulsesPerMm machine f l)))
         (Machine.valueOf machine (feedCode f))
+
+-- | Pulses per second of each axis in a straight frame, on a machine whose codes are frequencies.
+-- The leading axis has the frequency of the code, and every other axis a share of it in proportion
+-- to its pulses. Empty on other machines, for other frames, and for a code that the machine does
+-- not have.
+frequencies :: Machine -> Frame -> [(Axis, Double)]
+frequencies machine f = case (Machine.feedMeasure (Machine.feeds machine), motion f) of
+  (LeadingAxis, Linear) ->
+    [ (axis, code * fromIntegral n / fromIntegral leading)
+      | leading > 0,
+        Just code <- [Machine.valueOf machine (feedCode f)],
+        (axis, Pulses n) <- [(X, x), (Y, y), (Z, z)]
+    ]
+  _ -> []
+  where
+    Pulses3 x y z = abs (increment f)
+    Pulses2 a b = abs (turn f)
+    Pulses leading = maximum [x, y, z, a, b]
 
 -- | Pulses of the leading axis per mm of the path. Nothing on a machine whose codes are feeds along
 -- the path. On an arc the leading axis changes. Therefore an arc counts as a move along one axis,

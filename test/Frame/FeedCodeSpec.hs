@@ -10,12 +10,12 @@ import Data.Text (Text)
 import Files (readText)
 import Frame.Error (Error (..), Warning (..))
 import Frame.FeedCode qualified as FeedCode
-import Frame.Frame (Frame (..), PlannedFrame (frame))
+import Frame.Frame (Frame (..), FrameMotion (Linear), PlannedFrame (frame))
 import Frame.Frame qualified as Frame
 import Frame.Made qualified as Made
 import Geometry.Segment (Segment (Straight))
 import Geometry.Vec qualified as Vec
-import Machine.Machine (CommandName (..), FeedCode (..), Machine)
+import Machine.Machine (Axis (..), CommandName (..), FeedCode (..), Machine)
 import Machine.Machine qualified as Machine
 import Machines qualified
 import Part.CutFeed (CutFeed (..), SpindleRate (..))
@@ -24,6 +24,15 @@ import Part.Part qualified as Part
 import Test.Hspec
 import Test.QuickCheck
 import Toolpath.Toolpath (Block (..), Toolpath (blocks))
+
+-- | A straight frame with these increments and this feed code.
+moving :: Int -> Int -> Int -> Frame
+moving x y code =
+  (Frame.commandFrame [])
+    { motion = Linear,
+      increment = Pulses3 (Pulses x) (Pulses y) 0,
+      feedCode = FeedCode code
+    }
 
 spec :: Spec
 spec = do
@@ -50,6 +59,20 @@ spec = do
                       | f <- framesOf p,
                         let g = obtained f
                     ]
+    -- П27 is 900 Hz and П32 is 33.4 Hz (NC course); 33.4 · 1500/3000 = 16.7.
+    it
+      "gives the leading axis the frequency of the code, and the others their share of it (catches \
+      \the frequency of the code on every axis)"
+      $ do
+        FeedCode.frequencies kontur (moving 0 6000 27) `shouldBe` [(X, 0), (Y, 900), (Z, 0)]
+        FeedCode.frequencies kontur (moving (-4200) 0 32) `shouldBe` [(X, 33.4), (Y, 0), (Z, 0)]
+        FeedCode.frequencies kontur (moving 1500 (-3000) 32)
+          `shouldBe` [(X, 16.7), (Y, 33.4), (Z, 0)]
+    it
+      "has no frequencies in a frame without motion, and for a code that it lacks (catches the \
+      \frequency of the frame before)"
+      $ map (FeedCode.frequencies kontur) [Frame.commandFrame [], moving 10 0 99]
+        `shouldBe` [[], []]
     it
       "changes its codes along an arc, and gives one warning with the range obtained (catches a \
       \warning for each chord)"
