@@ -33,7 +33,7 @@ spec = do
           takeWhile
             (/= "    …")
             (dropWhile (not . Text.isPrefixOf "section  kind") (Text.lines page))
-        report = NodeTable.nodes (Just (lkp01f, punched)) analysis
+        report = NodeTable.nodes Nothing (Just (lkp01f, punched)) analysis
         -- The table begins after the heading of the last contour and an empty line.
         printed = drop 2 (Text.lines (snd (Text.breakOnEnd "Contour outside_edge" report)))
     length shown `shouldBe` 9

@@ -4,6 +4,7 @@
 -- Lengths are in mm.
 module Cli.CurveTable
   ( fittings,
+    lineEquation,
   )
 where
 
@@ -75,7 +76,7 @@ fitting unit (Name name) Fitting {sections, deviations, fittedPoints} =
 -- the unit, centre and radius for an arc. The counts of decimals are those of the paper.
 equation :: LengthUnit -> Section.Section -> Text
 equation unit p = case Section.formula p of
-  Section.Polynomial 0 b c -> "y = " <> Decimal.fixed 7 b <> " x " <> signed 6 (c / size)
+  Section.Polynomial 0 b c -> lineEquation unit b (Mm c)
   Section.Polynomial a b c ->
     "y = " <> Decimal.fixed 8 (a * size) <> " x² " <> signed 7 b <> " x " <> signed 6 (c / size)
   Section.Circle centre r ->
@@ -84,6 +85,19 @@ equation unit p = case Section.formula p of
   where
     size = millimetresIn unit
     signed n x = (if x < 0 then "− " else "+ ") <> Decimal.fixed n (abs x)
+
+-- | The equation of a line by its slope and its constant term. A constant term that is 0 to the
+-- last decimal is left out, as in the paper's @y = 8,2x@.
+lineEquation :: LengthUnit -> Double -> Mm -> Text
+lineEquation unit slope (Mm constant)
+  | Decimal.fixed 6 (abs term) == Decimal.fixed 6 0 = "y = " <> Decimal.fixed 7 slope <> " x"
+  | otherwise =
+    "y = "
+      <> Decimal.fixed 7 slope
+      <> (if term < 0 then " x − " else " x + ")
+      <> Decimal.fixed 6 (abs term)
+  where
+    term = constant / millimetresIn unit
 
 -- | A count with its noun, which gets the plural ending unless the count is 1.
 counted :: Int -> Text -> Text

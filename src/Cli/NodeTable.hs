@@ -14,19 +14,24 @@ import Base.Decimal qualified as Decimal
 import Base.LazyList qualified as LazyList
 import Base.Name (Name (..))
 import Base.Quantity (LengthUnit (..), Mm (..), Rad (..), Seconds (..), minus, times, total)
-import Base.Region (Located (..))
+import Base.Region (Located (..), Source)
 import Cli.CurveTable qualified as CurveTable
+import Cli.ReferencePointTable qualified as ReferencePointTable
 import Cli.RestMaterialTable qualified as RestMaterialTable
+import Cli.StepTable qualified as StepTable
 import Cli.StockTable qualified as StockTable
 import Cli.Table (Align (..))
 import Cli.Table qualified as Table
 import Compile (Analysis (..), Punched (..))
+import Data.IntMap.Strict qualified as IntMap
 import Data.List.NonEmpty (NonEmpty)
 import Data.List.NonEmpty qualified as NonEmpty
 import Data.Text (Text)
 import Data.Text qualified as Text
 import Frame.Frame qualified as Frame
 import Frame.MoveTime (moveLength, moveTime, pathTime)
+import Frame.SectionSteps (SectionSteps)
+import Frame.SectionSteps qualified as SectionSteps
 import Gcode.Writer qualified as Writer
 import Geometry.Segment (Segment (..))
 import Geometry.Segment qualified as Segment
@@ -45,14 +50,15 @@ import Toolpath.Toolpath qualified as Toolpath
 
 -- | The tables of a part: curves, contours, pockets, holes, rest material, sums. Times are
 -- computed with the feeds of the machine; without a machine, with those of the program. Without a
--- machine there is also no tape whose length could be listed.
-nodes :: Maybe (Machine, Punched) -> Analysis -> Text
-nodes punched Analysis {part, path} =
+-- machine there is also no tape whose length could be listed. With the source of the program, the
+-- reference points of pieces are listed, too.
+nodes :: Maybe Source -> Maybe (Machine, Punched) -> Analysis -> Text
+nodes source punched Analysis {part, path} =
   Text.intercalate
     "\n"
     ( [heading part]
         <> CurveTable.fittings part
-        <> [contourTable unit machine job pass cut | (job, pass, cut) <- cutsOf path]
+        <> concatMap contourTables (cutsOf path)
         <> [pocketText unit machine job pass cleared | (job, pass, cleared) <- clearingsOf path]
         <> holeTable unit [drilling | Holing (Located _ drilling) _ <- Toolpath.blocks path]
         <> RestMaterialTable.tables path
@@ -62,6 +68,14 @@ nodes punched Analysis {part, path} =
   where
     machine = fst <$> punched
     unit = Part.unit part
+    contourTables (n, job, pass, cut) =
+      [contourTable unit machine job pass (NonEmpty.toList cut)]
+        <> stepTable unit job pass (NonEmpty.toList cut) (IntMap.findWithDefault [] n allSteps)
+        <> concat
+          [ ReferencePointTable.tables text part job pass (passWord unit pass) cut
+            | Just text <- [source]
+          ]
+    allSteps = maybe IntMap.empty (`SectionSteps.sectionSteps` path) machine
 
 heading :: Part -> Text
 heading part =
@@ -71,9 +85,15 @@ heading part =
     <> (case Part.unit part of Millimetres -> ""; Inches -> " (in)")
     <> "\n"
 
--- | The passes along contours: the milling statement, the pass, its moves.
-cutsOf :: Toolpath -> [(Located Milling, Pass, [Move])]
-cutsOf path = [(job, pass, NonEmpty.toList cut) | Cutting {job, pass, cut} <- Toolpath.blocks path]
+-- | The passes along contours: the number of the pass in 'Toolpath.passNumbers', the milling
+-- statement, the pass, its moves.
+cutsOf :: Toolpath -> [(Int, Located Milling, Pass, NonEmpty Move)]
+cutsOf path =
+  [ (n, job, pass, cut)
+    | (n, Cutting {job, pass, cut}) <- zip (Toolpath.passNumbers blocks) blocks
+  ]
+  where
+    blocks = Toolpath.blocks path
 
 -- | The passes that clear pockets: the milling of the pocket's wall, the pass, its moves.
 clearingsOf :: Toolpath -> [(Located Milling, Pass, [Move])]
@@ -110,6 +130,35 @@ contourTable unit machine job pass cut =
         sectionRows unit machine (Part.ends (Part.contour (value job))) (Toolpath.curveRuns cut)
       )
     <> lengthAndTime unit machine cut
+
+-- | The table of steps of one pass along a contour; the empty list if it has nothing to say.
+-- @divided@ are the steps of the sections; empty without a machine, and if the control computes the
+-- sections.
+stepTable :: LengthUnit -> Located Milling -> Pass -> [Move] -> [SectionSteps] -> [Text]
+stepTable unit job pass cut divided =
+  [ (if null divided then "Equations and angles" else "Steps")
+      <> " of the sections of "
+      <> nameOf job
+      <> passWord unit pass
+      <> "\n\n"
+      <> table
+    | Just table <-
+        [ StepTable.steps
+            unit
+            (zipWith3 stepSection [0 ..] sections (map Just divided <> repeat Nothing))
+        ]
+  ]
+  where
+    sections = Toolpath.curveRuns cut
+    stepSection index section found =
+      StepTable.StepSection
+        { StepTable.name =
+            sectionName (Part.ends (Part.contour (value job))) (length sections) index,
+          StepTable.kind = kindWord section,
+          StepTable.segment =
+            if Toolpath.isCurve section then Nothing else Just (segment (NonEmpty.head section)),
+          StepTable.divided = found
+        }
 
 -- | The count of moves, the length and the time of one pass in a pocket.
 pocketText :: LengthUnit -> Maybe Machine -> Located Milling -> Pass -> [Move] -> Text
@@ -159,7 +208,7 @@ sectionRows unit machine ends sections =
 
 sectionRow :: LengthUnit -> Maybe Machine -> Int -> Part.Ends -> Int -> NonEmpty Move -> [Text]
 sectionRow unit machine count ends index section =
-  [ Decimal.whole index <> "–" <> Decimal.whole next,
+  [ sectionName ends count index,
     kindWord section,
     Decimal.whole index
   ]
@@ -169,11 +218,16 @@ sectionRow unit machine count ends index section =
          seconds (total (map (moveTime machine) moves))
        ]
   where
+    begin = Segment.start (segment (NonEmpty.head section))
+    moves = NonEmpty.toList section
+
+-- | The name of the section with the number @index@ of @count@ sections: its two nodes.
+sectionName :: Part.Ends -> Int -> Int -> Text
+sectionName ends count index = Decimal.whole index <> "–" <> Decimal.whole next
+  where
     next = case ends of
       Part.Closed -> (index + 1) `mod` count
       Part.Open -> index + 1
-    begin = Segment.start (segment (NonEmpty.head section))
-    moves = NonEmpty.toList section
 
 endRow :: LengthUnit -> Part.Ends -> [NonEmpty Move] -> [[Text]]
 endRow unit ends sections = case (ends, reverse sections) of
@@ -236,7 +290,9 @@ summary unit punched path =
     machine = fst <$> punched
     measured x = [fixed3 unit x, Decimal.unitText unit]
     everything = concatMap Toolpath.moves (Toolpath.blocks path)
-    cutting = concat [moves | (_, _, moves) <- cutsOf path <> clearingsOf path]
+    cutting =
+      concatMap (\(_, _, _, cut) -> NonEmpty.toList cut) (cutsOf path)
+        <> concatMap (\(_, _, cleared) -> cleared) (clearingsOf path)
     lengthOf = total . map moveLength
 
 -- | The time that the model of the controller takes for the tape, with its ramps and its waits for

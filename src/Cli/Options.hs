@@ -51,8 +51,8 @@ data Subcommand
     Verify FilePath (Maybe Text) [FilePath] Bool
   | -- | the program, the machine, the form of the list
     Frames FilePath (Maybe Text) FrameForm
-  | -- | the program, the machine
-    Report FilePath (Maybe Text)
+  | -- | the program, the machine, true to list the reference points of pieces, too
+    Report FilePath (Maybe Text) Bool
   | -- | the input sheet, the program to write
     Import FilePath (Maybe FilePath)
   | -- | the program, the input sheet to write
@@ -186,9 +186,9 @@ commands =
         (Frames <$> program <*> optional target <*> frameForm),
       entry
         "report"
-        "Tables of nodes, lengths and times"
+        "Tables of nodes, lengths, times and steps"
         "partc report flange.part"
-        (Report <$> program <*> optional target),
+        (Report <$> program <*> optional target <*> pointsFlag),
       entry
         "decode"
         "List the frames of a tape"
@@ -395,6 +395,13 @@ frameForm =
           <> Opt.help "One frame a line, in the letters and digits of the machine's code"
       )
     <|> pure FramesAsTable
+
+pointsFlag :: Parser Bool
+pointsFlag =
+  Opt.switch
+    ( Opt.long "points"
+        <> Opt.help "The cutter's position for each row of the tables of curves, too"
+    )
 
 pulsesFlag :: Parser Bool
 pulsesFlag =

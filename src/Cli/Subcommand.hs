@@ -107,7 +107,7 @@ perform reporter command = case command of
   Check targets files -> maximum <$> traverse (check reporter targets) (NonEmpty.toList files)
   Verify file target tape withPulses -> verify reporter file target tape withPulses
   Frames file target form -> frames reporter file target form
-  Report file target -> report reporter file target
+  Report file target withPoints -> report reporter file target withPoints
   Import file output -> importSheet reporter file output
   ExportSheet file output -> exportSheet reporter file output
   Decode target tape -> decode reporter target tape
@@ -344,12 +344,14 @@ unitOf :: Compiled -> LengthUnit
 unitOf = Toolpath.unit . Compile.toolpath
 
 -- | Prints the tables of nodes, lengths and times of a program. If the program or the command line
--- names a machine, the tables use its feeds and have the length of its tape.
-report :: Reporter -> FilePath -> Maybe Text -> IO Exit
-report reporter file target = withInput reporter file (maybeToList target) $ \given ->
+-- names a machine, the tables use its feeds and have the length of its tape. If @withPoints@ is
+-- true, the reference points of pieces are listed, too.
+report :: Reporter -> FilePath -> Maybe Text -> Bool -> IO Exit
+report reporter file target withPoints = withInput reporter file (maybeToList target) $ \given ->
   settled reporter given (analysed given) $ \(analysis, punched) ->
-    printResult reporter (NodeTable.nodes punched analysis)
+    printResult reporter (NodeTable.nodes (pointsSource given) punched analysis)
   where
+    pointsSource given = if withPoints then Just (source given) else Nothing
     analysed given =
       Compile.analyse (values given) (loaded given) `Result.thenSound` \analysis -> do
         let path = Compile.path analysis

@@ -29,7 +29,7 @@ spec = do
         case Result.ifSound (Compile.analyse [] (LoadedProgram.fromText "p.part" text)) of
           Nothing -> property Discard
           Just analysis ->
-            let tables unit = Text.words (NodeTable.nodes Nothing (inUnit unit analysis))
+            let tables unit = Text.words (NodeTable.nodes Nothing Nothing (inUnit unit analysis))
                 inches = filter (/= "(in)") (tables Inches)
              in conjoin
                   ( (length inches === length (tables Millimetres)) :
@@ -65,10 +65,11 @@ inUnit unit a =
 -- | True if a word of a table in mm and the word in its place of the table in inches say the same.
 -- A length has three decimals in mm and four in inches, an area three and five. Radii and the sizes
 -- of cutters have up to four decimals in mm and up to five in inches, and the sizes are rounded
--- down.
+-- down. The slope of a line has seven decimals and no unit.
 isSame :: Text -> Text -> Property
 isSame mm inch = counterexample (show (mm, inch)) $ case (number mm, number inch) of
   (Just a, Just b)
+    | decimals mm == 7 -> mm === inch
     | decimals mm == 3 && decimals inch == 4 -> near 0.0036 a (25.4 * b)
     | decimals mm == 3 && decimals inch == 5 ->
       near 0.0038 a (25.4 * 25.4 * b) .||. near 0.0036 a (25.4 * b)
