@@ -9,6 +9,7 @@ module Base.NumberTable
     cells,
     concatenated,
     selectColumns,
+    mapPairs,
     selectRows,
   )
 where
@@ -84,6 +85,17 @@ selectColumns columns rows =
     number n = case n `quotRem` wide of
       (k, i) ->
         cell rows k (PrimArray.indexPrimArray sources i) * PrimArray.indexPrimArray factors i
+
+-- | Applies a function to the first two numbers of each row. The table has at least two columns.
+mapPairs :: (Double -> Double -> (Double, Double)) -> NumberTable -> NumberTable
+mapPairs f rows =
+  rows {numbers = PrimArray.generatePrimArray (width rows * count rows) number}
+  where
+    number n = case n `quotRem` width rows of
+      (k, 0) -> fst (pair k)
+      (k, 1) -> snd (pair k)
+      (k, i) -> cell rows k i
+    pair k = f (cell rows k 0) (cell rows k 1)
 
 -- | Makes a table of some rows, given by their indices from 0, in the order of the list.
 selectRows :: [Int] -> NumberTable -> NumberTable

@@ -11,12 +11,17 @@ where
 
 import Base.Name (Name (..))
 import Base.Region (Located (..))
+import Checked.Column qualified as Column
 import Checked.Deferred (Deferred, mapStrict, resolveAll)
-import Checked.Expression (TypingEnvironment, contourElement, expect, repetition)
+import Checked.Expression
+  ( TypingEnvironment,
+    contourElement,
+    expect,
+    repetition,
+  )
 import Checked.Feed (cutFeed)
 import Checked.Inference (Infer)
 import Checked.Inference qualified as Inference
-import Checked.Piece qualified as Piece
 import Checked.Scheme (Binding (..))
 import Checked.Syntax qualified as Checked
 import Checked.Type (Type)
@@ -33,8 +38,8 @@ item env (Located at i) = case i of
     Inference.taint
     pure (const (Located at (Checked.For (Name "") (Located at (Checked.List [])) [])))
   Surface.For counter list items -> do
-    (t, list') <- repetition env counter list
-    items' <- Inference.withLocals [(counter, t)] (mapM (item env) items)
+    (t, columns, list') <- repetition env counter list
+    items' <- Column.inScope columns (Inference.withLocals [(counter, t)] (mapM (item env) items))
     pure (\sol -> Located at (Checked.For (value counter) (list' sol) (resolveAll sol items')))
   Surface.Choose e items others -> do
     e' <- expect env Type.Boolean e
@@ -64,7 +69,7 @@ elementModifiers ::
 elementModifiers env t modifiers
   | null modifiers = pure []
   | otherwise = do
-    columns <- Piece.columnsOf t
+    columns <- Column.ofCurve t
     mapM
       (modifier env (concat columns))
       (if isNothing columns then filter (not . isBevel) modifiers else modifiers)
@@ -88,7 +93,7 @@ modifier env columns (Located at m) = fmap (Located at .) $ case m of
   Surface.Slow -> pure (const Checked.Slow)
   Surface.ElementAllowance e -> (Checked.ElementAllowance .) <$> expect env Type.len e
   Surface.Bevel e ->
-    (Checked.Bevel .) <$> Piece.withColumns columns (expect env Type.angle e)
+    (Checked.Bevel .) <$> Column.inScope columns (expect env Type.angle e)
 
 -- | Checks the link from an element to the next one.
 linkTo :: TypingEnvironment -> Surface.Link -> Infer (Deferred Checked.Link)

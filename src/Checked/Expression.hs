@@ -14,8 +14,8 @@ module Checked.Expression
     repetition,
     isBuiltin,
     spatialPoint,
-    pointOrPoints,
     contourElement,
+    listOf,
   )
 where
 
@@ -39,6 +39,7 @@ import Checked.Call
     withLabels,
   )
 import Checked.CallReport (unwrittenCall)
+import Checked.Column qualified as Column
 import Checked.Deferred (Deferred, resolveAll)
 import Checked.Dimension qualified as Dimension
 import Checked.Error (Error (..))
@@ -134,19 +135,6 @@ spatialPoint env e = do
   unless (t' == Type.SpacePoint) (equal (region e) Type.aPoint t)
   pure e'
 
--- | Checks an expression that must be a point or a list of points.
-pointOrPoints :: TypingEnvironment -> Surface.Expr -> Infer (Deferred Checked.Expr)
-pointOrPoints env e = case value e of
-  Surface.List es -> snd <$> listOf env (region e) (Just Type.aPoint) es
-  _ -> do
-    (t, e') <- infer env e
-    t' <- Inference.resolved t
-    case t' of
-      Type.Spatial _ -> equal (region e) Type.aPoint t
-      Type.Circle -> equal (region e) Type.aPoint t
-      _ -> equal (region e) (Type.ListOf Type.aPoint) t
-    pure e'
-
 -- | Checks an element of a contour. A circle needs a sense. A line, a point, a curve or a contour
 -- must not have one.
 contourElement ::
@@ -234,8 +222,9 @@ inferred env located@(Located at e) = case e of
     pure (Type.SpacePoint, \sol -> Located at (Checked.Triple (x' sol) (y' sol) (z' sol)))
   Surface.List es -> listOf env at Nothing es
   Surface.Each inner counter list -> do
-    (t, list') <- repetition env counter list
-    (result, inner') <- Inference.withLocals [(counter, t)] (infer env inner)
+    (t, columns, list') <- repetition env counter list
+    (result, inner') <-
+      Column.inScope columns (Inference.withLocals [(counter, t)] (infer env inner))
     pure
       ( Type.ListOf result,
         \sol -> Located at (Checked.Each (inner' sol) (value counter) (list' sol))
@@ -328,20 +317,29 @@ range env at low high step = do
       \sol -> Located at (Checked.Range (low' sol) (high' sol) (($ sol) <$> step'))
     )
 
--- | Checks the variable and the list of a repetition. The result is the type of the variable, and
--- the checked list.
-repetition :: TypingEnvironment -> Located Name -> Surface.Expr -> Infer Typed
+-- | Checks the variable and the list or table of a repetition. The result is the type of the
+-- variable, the columns of the table with their types, and the checked list or table. Over a table
+-- the variable is the point of a row.
+repetition ::
+  TypingEnvironment ->
+  Located Name ->
+  Surface.Expr ->
+  Infer (Type, [(Located Text, Type)], Deferred Checked.Expr)
 repetition env counter@(Located _ (Name text)) list = do
   when
     (isBuiltin text)
     ( Inference.mistake
         (NameTaken (region counter) (value counter) unwritten [])
     )
-  t <- Inference.freshType
   (found, list') <- infer env list
-  found' <- Inference.resolved found
-  isList <- isEqual (region list) (Type.ListOf t) found
-  pure (if isList && found' /= Type.Wrong then t else Type.Wrong, list')
+  rows <- Column.ofRows found
+  case rows of
+    Just columns -> pure (Type.aPoint, columns, list')
+    Nothing -> do
+      t <- Inference.freshType
+      found' <- Inference.resolved found
+      isList <- isEqual (region list) (Type.ListOf t) found
+      pure (if isList && found' /= Type.Wrong then t else Type.Wrong, [], list')
 
 -- | Tells if this is the name of a function or a constant of the language that a program cannot
 -- give to something else.

@@ -14,6 +14,7 @@ import Base.Name (Name (..))
 import Base.Region (Located (..), Region (..))
 import Base.Result (Result (..))
 import Checked.CallError qualified as CallError
+import Checked.Column qualified as Column
 import Checked.Contour (item)
 import Checked.Deferred (Deferred, resolveAll)
 import Checked.Dimension qualified as Dimension
@@ -26,8 +27,8 @@ import Checked.Expression
     fit,
     infer,
     isBuiltin,
+    listOf,
     operation,
-    pointOrPoints,
     repetition,
     spatialPoint,
   )
@@ -189,11 +190,11 @@ statement env (Located at s) = case s of
           <*> expect env Type.len stepover
           <*> Settings.check env "pocket" options
   Surface.Drill points depth options ->
-    one $
-      (\points' depth' o sol -> Checked.Drill (points' sol) (depth' sol) (o sol))
-        <$> pointOrPoints env points
-          <*> expect env Type.len depth
-          <*> Settings.check env "drill" options
+    one $ do
+      (columns, points') <- pointOrPoints env points
+      depth' <- Column.inScope columns (expect env Type.len depth)
+      o <- Settings.check env "drill" options
+      pure (\sol -> Checked.Drill (points' sol) (depth' sol) (o sol))
   Surface.Travel motion stops ->
     one $
       (\ps sol -> Checked.Travel (fmap ($ sol) ps))
@@ -233,13 +234,13 @@ repeated ::
   Infer (Maybe (Deferred Checked.Statement_))
 repeated env counter list body = do
   checked <- Inference.separately (repetition env counter list)
-  let binding = maybe (Poisoned (region counter)) (Local (region counter) . fst) checked
-  body' <- Inference.scoped $ do
+  let binding = maybe (Poisoned (region counter)) (\(t, _, _) -> Local (region counter) t) checked
+  body' <- Column.inScope (maybe [] (\(_, columns, _) -> columns) checked) $ do
     Inference.define (value counter) binding
     mapM_ (mentionDefinition counter) (meaningOf binding)
     inBlock env body
-  d <- maybe (pure Dimension.none) (fmap Type.dimensionOf . Inference.resolved . fst) checked
-  let make (_, list') sol = Checked.Repeat counter (sol d) (list' sol) (resolveAll sol body')
+  d <- maybe (pure Dimension.none) (\(t, _, _) -> Type.dimensionOf <$> Inference.resolved t) checked
+  let make (_, _, list') sol = Checked.Repeat counter (sol d) (list' sol) (resolveAll sol body')
   pure (make <$> checked)
 
 -- Definitions
@@ -340,7 +341,7 @@ pieceDefinition ::
 pieceDefinition env name e ciphers side joggles = do
   checked <- defining name (Value (region name) . fst) $ do
     (t, e') <- curve env e
-    columns <- Piece.columnsOf t
+    columns <- Column.ofCurve t
     ciphers' <- catMaybes <$> mapM (Piece.cipher env columns) ciphers
     joggles' <- mapM (Piece.joggle env) joggles
     pure (t, (e', ciphers', joggles'))
@@ -414,6 +415,23 @@ outlined env e = do
   found <- Inference.resolved t
   unless (found == Type.PlaneRegion) (fit Type.Contour e t)
   pure e'
+
+-- | Checks an expression that must be a point, a list of points or a table. The result has the
+-- further columns of the table, with the types of their cells.
+pointOrPoints ::
+  TypingEnvironment -> Surface.Expr -> Infer ([(Located Text, Type)], Deferred Checked.Expr)
+pointOrPoints env e = case value e of
+  Surface.List es -> ([],) . snd <$> listOf env (region e) (Just Type.aPoint) es
+  _ -> do
+    (t, e') <- infer env e
+    rows <- Column.ofRows t
+    t' <- Inference.resolved t
+    case (rows, t') of
+      (Just _, _) -> pure ()
+      (Nothing, Type.Spatial _) -> fit Type.aPoint e t
+      (Nothing, Type.Circle) -> fit Type.aPoint e t
+      (Nothing, _) -> fit (Type.ListOf Type.aPoint) e t
+    pure (concat rows, e')
 
 -- | Checks the outline of a solid: a contour, a region or a circle.
 bounded :: TypingEnvironment -> Surface.Expr -> Infer (Deferred Checked.Expr)

@@ -11,8 +11,6 @@
 -- of the curve's table; it may have another value at each point.
 module Checked.Piece
   ( table,
-    columnsOf,
-    withColumns,
     cipher,
     joggle,
   )
@@ -25,6 +23,7 @@ import Base.NumberTable qualified as NumberTable
 import Base.Quantity (LengthUnit)
 import Base.Region (Located (..), Region)
 import Checked.Builtin qualified as Builtin
+import Checked.Column qualified as Column
 import Checked.Deferred (Deferred, resolveAll)
 import Checked.Dimension qualified as Dimension
 import Checked.Error (Error (..))
@@ -33,8 +32,7 @@ import Checked.Expression (TypingEnvironment (unitAt), expect)
 import Checked.Inference (Infer)
 import Checked.Inference qualified as Inference
 import Checked.PieceError (PieceError (..))
-import Checked.Scheme (Binding (..))
-import Checked.Syntax (Cells, Columns (..))
+import Checked.Syntax (Cells, Columns (..), PointColumns (..))
 import Checked.Syntax qualified as Checked
 import Checked.Type (Type)
 import Checked.Type qualified as Type
@@ -51,69 +49,115 @@ import Surface.Token (Numeral (..))
 
 -- | A column of a table. 'kind' is the type of its cells. 'size' is the factor that converts
 -- numbers from the heading's unit to mm, radians, mm/min or turns per minute. It is 'Nothing' if
--- the heading has no unit.
-data Column = Column {heading :: Located Name, kind :: Type, size :: Maybe Double}
+-- the heading has no unit. 'isExtra' is false if the column gives a coordinate.
+data Column = Column
+  { heading :: Located Name,
+    kind :: Type,
+    size :: Maybe Double,
+    isExtra :: Bool
+  }
 
 -- | Checks the lines of a table and infers the type of the table. The first line must name the
 -- columns.
 table :: TypingEnvironment -> Located Name -> [Surface.TableLine] -> Infer (Type, Deferred Columns)
 table env name written = case written of
   Located at (Surface.Header headings) : rows -> do
-    columns <- traverse column (NonEmpty.toList headings)
+    let names = [n | Surface.Heading n _ <- NonEmpty.toList headings]
+        coordinates = coordinatesOf (map value names)
+    columns <- traverse (column coordinates) (NonEmpty.toList headings)
     mapM_ mentionColumn columns
-    reportRepeated (map heading columns)
-    mapM_ (reportConstant . heading) columns
-    unless (hasColumn "x" columns) (columnMissing at headings "x")
-    unless (hasColumn "y" columns) (columnMissing at headings "y")
+    reportRepeated names
+    mapM_ reportConstant names
+    reportCoordinates at names
     rows' <- rowsOf env columns rows
-    pure (typeOfTable columns, columnsAndRows (unitAt env (region name)) columns rows')
+    let unit = unitAt env (region name)
+    pure (typeOfTable columns, columnsAndRows unit coordinates columns rows')
   Located _ Surface.BrokenLine : _ -> missing <$ Inference.taint
   first : _ -> missing <$ mistake (HeadingsMissing (region first) (cellCount (value first)))
   [] -> missing <$ mistake (HeadingsMissing (region name) 0)
   where
-    columnMissing at headings text =
-      mistake
-        ( ColumnMissing
-            at
-            (Name text)
-            [(region n, value n) | Surface.Heading n _ <- NonEmpty.toList headings]
-        )
     cellCount line = case line of
       Surface.Entries cells -> length cells
       _ -> 0
-    missing = (Type.Wrong, const (Columns [] []))
-    hasColumn text = any ((== Name text) . value . heading)
+    missing = (Type.Wrong, const (Columns CartesianRows [] []))
 
--- | Checks the heading of a column. The columns x and y are lengths. The dimension of any other
--- column follows from the unit in its heading, or from its use.
-column :: Surface.Heading -> Infer Column
-column (Surface.Heading name unit) = case unit of
-  Just u -> do
+-- | Finds the coordinates that the columns of a table give. A table with x and y is cartesian, even
+-- if it has a further column @angle@ or @radius@.
+coordinatesOf :: [Name] -> PointColumns
+coordinatesOf names
+  | any (`elem` names) (coordinateNames CartesianRows) = CartesianRows
+  | any (`elem` names) (coordinateNames PolarRows) = PolarRows
+  | otherwise = CartesianRows
+
+-- | The names of the columns that give the coordinates, in the order of the cells of
+-- 'Checked.Columns'.
+coordinateNames :: PointColumns -> [Name]
+coordinateNames coordinates = map Name $ case coordinates of
+  CartesianRows -> ["x", "y"]
+  PolarRows -> ["radius", "angle"]
+
+-- | Reports columns from which no coordinates follow, and those that give them twice. @at@ is the
+-- region of the first line.
+reportCoordinates :: Region -> [Located Name] -> Infer ()
+reportCoordinates at names = case (given CartesianRows, given PolarRows) of
+  (_ : _, polar : _)
+    | isGiven PolarRows || not (isGiven CartesianRows) ->
+      mistake
+        ( CoordinatesMixed
+            (region polar)
+            (value polar)
+            [(region n, value n) | n <- given CartesianRows]
+        )
+  (_, [_]) | null (given CartesianRows) -> mapM_ (missing PolarRows) (coordinateNames PolarRows)
+  (_, _ : _) | null (given CartesianRows) -> pure ()
+  _ -> mapM_ (missing CartesianRows) (coordinateNames CartesianRows)
+  where
+    given coordinates = [n | n <- names, value n `elem` coordinateNames coordinates]
+    isGiven coordinates = all (`elem` map value names) (coordinateNames coordinates)
+    missing coordinates name =
+      unless (name `elem` map value names) $
+        mistake
+          ( ColumnMissing
+              at
+              name
+              (coordinateNames coordinates)
+              [(region n, value n) | n <- names]
+          )
+
+-- | Checks the heading of a column. The dimension of a further column follows from the unit in its
+-- heading, or from its use.
+column :: PointColumns -> Surface.Heading -> Infer Column
+column coordinates (Surface.Heading name unit) = case (unit, coordinate) of
+  (Just u, _) -> do
     let (t, factor) = Type.ofUnit u
-    when
-      (isCoordinate (value name) && t /= Type.len)
-      (mistake (CoordinateUnit (region name) (value name) t))
-    pure (Column name t (Just factor))
-  Nothing
-    | isCoordinate (value name) -> pure (Column name Type.len Nothing)
-    | otherwise -> do
-      d <- Inference.freshDimension
-      Inference.monomorphic d
-      pure (Column name (Type.Quantity d) Nothing)
+    case coordinate of
+      Just wanted
+        | t /= wanted -> mistake (CoordinateUnit (region name) (value name) wanted t)
+      _ -> pure ()
+    pure (made t (Just factor))
+  (Nothing, Just t) -> pure (made t Nothing)
+  (Nothing, Nothing) -> do
+    d <- Inference.freshDimension
+    Inference.monomorphic d
+    pure (made (Type.Quantity d) Nothing)
+  where
+    made kind size = Column {heading = name, kind, size, isExtra = isNothing coordinate}
+    coordinate
+      | value name `notElem` coordinateNames coordinates = Nothing
+      | value name == Name "angle" = Just Type.angle
+      | otherwise = Just Type.len
 
--- | Records the heading of a column, for editors. The columns x and y belong to the language.
+-- | Records the heading of a column, for editors. The columns of the coordinates belong to the
+-- language.
 mentionColumn :: Column -> Infer ()
-mentionColumn Column {heading = Located at name@(Name text), kind}
-  | isCoordinate name =
+mentionColumn Column {heading = Located at (Name text), kind, isExtra}
+  | isExtra = Inference.mention at (Just at) text (Inference.Valued kind)
+  | otherwise =
     Inference.mention
       at
       Nothing
       text
       (Inference.Described ("the " <> text <> " of the points of the table"))
-  | otherwise = Inference.mention at (Just at) text (Inference.Valued kind)
-
-isCoordinate :: Name -> Bool
-isCoordinate name = name `elem` [Name "x", Name "y"]
 
 -- | Reports every column whose name an earlier column has. The report also points at the first such
 -- column.
@@ -138,17 +182,14 @@ typeOfTable columns =
   Type.Table
     (Type.Fields [(Name.text <$> heading c, kind c) | c <- columns, isExtra c])
 
--- | Is a column neither x nor y?
-isExtra :: Column -> Bool
-isExtra = not . isCoordinate . value . heading
-
--- | The columns besides x and y with their dimensions, and the rows in the order of the text. The
--- argument @rows@ has them in reverse order. The cells of a row are put into the order x, y, other
--- columns. @unit@ is the unit of the file that contains the @table@ statement; it also holds for
--- the numbers of a table file.
-columnsAndRows :: LengthUnit -> [Column] -> [Row] -> Deferred Columns
-columnsAndRows unit columns rows sol =
+-- | The further columns with their dimensions, and the rows in the order of the text. The argument
+-- @rows@ has them in reverse order. The cells of a row are put into the order of
+-- 'coordinateNames'; the further columns follow. @unit@ is the unit of the file that contains the
+-- @table@ statement; it also holds for the numbers of a table file.
+columnsAndRows :: LengthUnit -> PointColumns -> [Column] -> [Row] -> Deferred Columns
+columnsAndRows unit coordinates columns rows sol =
   Columns
+    coordinates
     [(value (heading c), sol (Type.dimensionOf (kind c))) | c <- columns, isExtra c]
     (resolveAll sol (map (cellsOf order sizes) (joinRows rows)))
   where
@@ -158,26 +199,8 @@ columnsAndRows unit columns rows sol =
       ]
     numbered = zip [0 :: Int ..] columns
     order =
-      [i | text <- ["x", "y"], (i, c) <- numbered, value (heading c) == Name text]
+      [i | name <- coordinateNames coordinates, (i, c) <- numbered, value (heading c) == name]
         <> [i | (i, c) <- numbered, isExtra c]
-
--- | The columns, besides x and y, that values along a curve of type @t@ may name, with the types of
--- their cells. Empty if @t@ is not the type of a curve. 'Nothing' if inference does not know the
--- columns, or if the curve is already reported as wrong.
-columnsOf :: Type -> Infer (Maybe [(Located Text, Type)])
-columnsOf t = do
-  t' <- Inference.resolved t
-  pure $ case t' of
-    Type.Curve (Type.Fields cs) -> Just cs
-    Type.Curve _ -> Nothing
-    Type.Wrong -> Nothing
-    _ -> Just []
-
--- | Runs an inference in which the columns are local names. They hide names of the program.
-withColumns :: [(Located Text, Type)] -> Infer a -> Infer a
-withColumns columns infer = Inference.scoped (mapM_ bind columns *> infer)
-  where
-    bind (Located at text, t) = Inference.define (Name text) (Local at t)
 
 -- Rows
 
@@ -365,7 +388,7 @@ valueAlong env columns t e = do
   unknown <- catMaybes <$> traverse unknownName (freeNames e)
   mapM_ (\(r, n) -> mistake (NoColumn r n (map (value . fst) columns))) unknown
   if null unknown
-    then withColumns columns (expect env t e)
+    then Column.inScope columns (expect env t e)
     else pure (zero e)
   where
     unknownName (r, n@(Name text)) = do

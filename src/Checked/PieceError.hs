@@ -27,15 +27,18 @@ import Report.Report (Label (..), Report (..), at, quote)
 data PieceError
   = -- | a table whose first line does not name the columns: the number of cells in this line
     HeadingsMissing Region Int
-  | -- | a column x or y with a unit that is no length: the name of the column, and the type of its
-    -- unit
-    CoordinateUnit Region Name Type
+  | -- | a column of coordinates with a unit of another dimension: the name of the column, its type,
+    -- and the type of its unit
+    CoordinateUnit Region Name Type Type
   | -- | headings below the first line of a table: the regions of the names
     HeadingsRepeated Region [Region]
   | -- | a column whose name an earlier column has: the name, and the region of that column
     ColumnTwice Region Name Region
-  | -- | a table without a column x or y: the name of the missing column, and the other columns
-    ColumnMissing Region Name [(Region, Name)]
+  | -- | a table without a column of coordinates: the name of the missing column, those of all
+    -- columns that give these coordinates, and the columns of the table
+    ColumnMissing Region Name [Name] [(Region, Name)]
+  | -- | a column of polar coordinates beside columns of others: its name, and these columns
+    CoordinatesMixed Region Name [(Region, Name)]
   | -- | a row of the wrong length: the number of the row from 1, the number of columns, the number
     -- of cells in the row, and their regions, if they are in the text of the program
     RowLength Region Int Int Int [Region]
@@ -65,13 +68,28 @@ toReport err = case err of
           ],
         hints = ["Write the names of the columns above the numbers, for example: x y mu deg H"]
       }
-  CoordinateUnit region (Name name) t ->
+  CoordinateUnit region (Name name) wanted t ->
     ( at
         region
         "E0205"
-        ("the column " <> quote name <> " is a length, but its unit is that of " <> Type.describe t)
+        ( Text.concat
+            [ "the column ",
+              quote name,
+              " is ",
+              Type.describe wanted,
+              ", but its unit is that of ",
+              Type.describe t
+            ]
+        )
     )
-      { hints = ["Write " <> name <> " mm, or leave the unit out."]
+      { hints =
+          [ Text.concat
+              [ "Write ",
+                name,
+                if wanted == Type.angle then " deg" else " mm",
+                ", or leave the unit out."
+              ]
+          ]
       }
   HeadingsRepeated region names ->
     (at region "E0224" "the columns of this table are named already")
@@ -92,7 +110,25 @@ toReport err = case err of
             | let new = name <> "_2"
           ]
       }
-  ColumnMissing region (Name name) columns ->
+  CoordinatesMixed region (Name name) others ->
+    ( at
+        region
+        "E0225"
+        ( Text.concat
+            [ "the column ",
+              quote name,
+              " does not go together with ",
+              Text.intercalate " and " [quote other | (_, Name other) <- others]
+            ]
+        )
+    )
+      { others = [Label r ("the column " <> quote other) | (r, Name other) <- others],
+        hints =
+          [ "The points of a table are given either by x and y, or by angle and radius. Name the \
+            \columns that do not give points otherwise."
+          ]
+      }
+  ColumnMissing region (Name name) coordinates columns ->
     (at region "E0225" ("the table has no column " <> quote name))
       { fixes =
           [ Fix.proposed
@@ -102,12 +138,12 @@ toReport err = case err of
                   name
               )
             | (k, (r, Name old)) <- zip [0 ..] columns,
-              old `notElem` ["x", "y"],
+              Name old `notElem` coordinates,
               Name old `notElem` map snd (take k columns)
           ],
         hints =
-          [ "Every table has columns x and y; others may follow."
-            | null [old | (_, Name old) <- columns, old `notElem` ["x", "y"]]
+          [ "Every table has columns x and y, or angle and radius; others may follow."
+            | null [old | (_, old) <- columns, old `notElem` coordinates]
           ]
       }
   RowLength region number columns cells written ->

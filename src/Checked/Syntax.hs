@@ -14,6 +14,7 @@ module Checked.Syntax
     BodySize,
     BodySize_ (..),
     Columns (..),
+    PointColumns (..),
     Cells (..),
     Cipher,
     Cipher_ (..),
@@ -167,9 +168,14 @@ data Statement_
   | With Expr [Statement]
   deriving stock (Eq, Show)
 
--- | The rows of a table. The first list holds the columns besides x and y, with their dimensions.
--- The cells of a row are x, y, and then those of the other columns, in the order of that list.
-data Columns = Columns [(Name, Dimension)] [Cells]
+-- | The rows of a table. The list holds the further columns, which give no coordinates, with their
+-- dimensions. The first two cells of a row are its coordinates: x and y, or radius and angle. Then
+-- come those of the further columns, in the order of that list.
+data Columns = Columns PointColumns [(Name, Dimension)] [Cells]
+  deriving stock (Eq, Show)
+
+-- | The two columns that give the points of a table: x and y, or radius and angle.
+data PointColumns = CartesianRows | PolarRows
   deriving stock (Eq, Show)
 
 -- | One or more rows of a table: rows of numbers, or one row that contains other expressions, with

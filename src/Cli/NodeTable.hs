@@ -263,10 +263,10 @@ holeTable unit drillings =
             [ [ fixed3 unit (Mm (Vec.x p)),
                 fixed3 unit (Mm (Vec.y p)),
                 fixed3 unit (times 2 (Part.drillRadius d)),
-                fixed3 unit (times (-1) (Part.bottom d))
+                fixed3 unit (times (-1) bottom)
               ]
               | d <- drillings,
-                Located _ p <- NonEmpty.toList (Part.holes d)
+                Part.Hole (Located _ p) bottom <- NonEmpty.toList (Part.holes d)
             ]
         )
     | not (null drillings)

@@ -243,7 +243,7 @@ holesOf operation = case operation of
   Mill _ -> []
   Pocket _ -> []
   Drill (Located _ d) ->
-    [Circle p (Part.drillRadius d) | Located _ p <- NonEmpty.toList (Part.holes d)]
+    [Circle p (Part.drillRadius d) | Part.Hole (Located _ p) _ <- NonEmpty.toList (Part.holes d)]
   Travel _ -> []
   Command _ -> []
 
@@ -309,7 +309,7 @@ cutterBox block = case block of
   Travelling {} -> []
   Holing (Located _ d) _ ->
     [ BoundingBox.inflate (Part.drillRadius d) (BoundingBox.ofPoints p [])
-      | Located _ p <- NonEmpty.toList (Part.holes d)
+      | Part.Hole (Located _ p) _ <- NonEmpty.toList (Part.holes d)
     ]
   Commanding _ -> []
   Cutting {job = Located _ milling, cut} -> sweptBy milling (NonEmpty.toList cut)

@@ -87,13 +87,15 @@ asWritten w =
     }
 
 -- | The elements that one item of a contour's body gives. A repetition gives the elements of its
--- body once for every value of its list. A contour that is used as an element gives several
+-- body once for every value of its list or row of its table. A contour that is used as an element gives several
 -- elements, too. The flag is true if the contour may be closed.
 item :: Environment -> Bool -> Item -> Eval [LinkSolver.LinkedElement]
 item env isWhole (Located at i) = case i of
   For name list body -> do
-    vs <- Expression.items <$> Expression.evaluate env list
-    Evaluation.collect (\v -> Evaluation.collect (item (Expression.bind name v env) False) body) vs
+    turns <- Expression.evaluate env list >>= Expression.turnsOf (region list)
+    Evaluation.collect
+      (\turn -> Evaluation.collect (item (Expression.bindTurn name turn env) False) body)
+      turns
   Choose condition body others -> do
     v <- Expression.evaluate env condition
     Evaluation.collect (item env False) (if Expression.isTrue v then body else others)

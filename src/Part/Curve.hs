@@ -9,6 +9,7 @@ module Part.Curve
   ( PartTable (..),
     points,
     columns,
+    columnsAt,
     PartCurve (..),
     Fitting (..),
     curve,
@@ -68,6 +69,11 @@ columns PartTable {rows, names} =
   [ (n, Vector.generate (NumberTable.count rows) (\k -> NumberTable.cell rows k i))
     | (i, n) <- zip [2 ..] names
   ]
+
+-- | The further columns of a row, by the row's index from 0: the name of each column, and its value
+-- in this row.
+columnsAt :: PartTable -> Int -> [(Name, Double)]
+columnsAt PartTable {rows, names} k = [(n, NumberTable.cell rows k i) | (i, n) <- zip [2 ..] names]
 
 -- | A curve of a program: the exact curve and what belongs to it.
 data PartCurve = PartCurve

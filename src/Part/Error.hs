@@ -195,7 +195,11 @@ factReport unit arguments fact = case fact of
       }
   Negative region parameter x ->
     (at region "E0345" (limited unit parameter "cannot be less than 0" x))
-      { fixes = signFixes unit region parameter arguments x
+      { fixes = signFixes unit region parameter arguments x,
+        hints =
+          [ "For a point on the other side of (0, 0), add 180 deg to its angle."
+            | parameter == Parameter.PolarRadius
+          ]
       }
   NotWhole region number range x -> notWholeReport region number range arguments x
   NoSuchItem region n count ->
@@ -294,6 +298,9 @@ signFixes unit region parameter arguments x =
       Parameter.ScalingFactor -> Nothing
       Parameter.RadiusAtHeight -> Nothing
       Parameter.OneSidedTolerance -> Nothing
+      -- The region is that of the whole row.
+      Parameter.PolarRadius -> Nothing
+      Parameter.HoleDepth -> Nothing
       _ -> Just region
 
 -- | Fix that writes a number without its minus.

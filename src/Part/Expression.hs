@@ -12,6 +12,10 @@ module Part.Expression
     point,
     isTrue,
     items,
+    Turn (..),
+    turnsOf,
+    bindTurn,
+    withColumns,
     written,
   )
 where
@@ -22,6 +26,7 @@ import Base.Name (Name)
 import Base.NumberTable qualified as NumberTable
 import Base.Quantity (LengthUnit (..), Mm (..))
 import Base.Region (Located (..), Region)
+import Base.Region qualified as Region
 import Checked.Dimension (Dimension)
 import Checked.Dimension qualified as Dimension
 import Checked.Syntax (Argument (..), Expr, Expr_ (..), Operator (..))
@@ -108,8 +113,9 @@ evaluate env (Located region e) =
       Value.lifted region (Vec.point a b) (Mm c)
     List es -> ListValue . Vector.fromList <$> traverse (evaluate env) es
     Each inner name list -> do
-      vs <- items <$> evaluate env list
-      ListValue . Vector.fromList <$> traverse (\v -> evaluate (bind name v env) inner) vs
+      turns <- evaluate env list >>= turnsOf (Region.region list)
+      ListValue . Vector.fromList
+        <$> traverse (\turn -> evaluate (bindTurn name turn env) inner) turns
   where
     argument a = case a of
       Given x -> Value.Plain <$> evaluate env x
@@ -180,6 +186,29 @@ items :: Value -> [Value]
 items v = case v of
   ListValue vs -> Vector.toList vs
   _ -> bug "a value that is no list where a list was checked"
+
+-- | One turn of a repetition: the value of its variable, and those of the columns of a table. Over
+-- a table the variable is the point of a row.
+data Turn = Turn {self :: Value, columns :: [(Name, Double)]}
+
+-- | The turns of a repetition over a value that the type checker knows to be a list or a table.
+-- @region@ is that of the value, for mistakes.
+turnsOf :: Region -> Value -> Eval [Turn]
+turnsOf region v = case v of
+  TableValue t -> traverse (uncurry (ofRow t)) (zip [0 ..] (Vector.toList (Curve.points t)))
+  _ -> pure [Turn {self, columns = []} | self <- items v]
+  where
+    ofRow t k p = do
+      self <- Value.spatial region (Value.offset p)
+      pure Turn {self, columns = Curve.columnsAt t k}
+
+-- | Binds the variable @name@ of a repetition and the columns to their values in one turn.
+bindTurn :: Name -> Turn -> Environment -> Environment
+bindTurn name turn env = bind name (self turn) (withColumns (columns turn) env)
+
+-- | Binds the columns of a table's row to their values.
+withColumns :: [(Name, Double)] -> Environment -> Environment
+withColumns found env = foldl (\e (name, x) -> bind name (Quantity x) e) env found
 
 -- | The text of a value, for editors and reports, in which lengths have the unit @inUnit@.
 -- @dimension@ is that of the numbers in the value and decides the unit of a number. The text is

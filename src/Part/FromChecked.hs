@@ -38,7 +38,7 @@ import Part.CutFeed (SpindleRate (..))
 import Part.Error (Error (..), ValueFact (..))
 import Part.Evaluation (Eval)
 import Part.Evaluation qualified as Evaluation
-import Part.Expression (Environment (..))
+import Part.Expression (Environment (..), Turn)
 import Part.Expression qualified as Expression
 import Part.Machining (Context (..))
 import Part.Machining qualified as Machining
@@ -247,7 +247,7 @@ step state (Located at s) = case s of
   Checked.ProgramStop -> command ProgramStop
   Checked.OptionalStop -> command OptionalStop
   Checked.Dwell e -> keep (secondsOf env e) (command . Dwell)
-  Checked.Repeat name d list body -> within (itemsOf env list) (repeated name d body)
+  Checked.Repeat name d list body -> within (turnsOf env list) (repeated name d body)
   Checked.When e body others ->
     within (Expression.evaluate env e) $ \v inside ->
       foldl step inside (if Expression.isTrue v then body else others)
@@ -398,20 +398,22 @@ withEnvironment state env = state {context = (context state) {environment = env}
 leave :: State -> State -> State
 leave outside inside = withEnvironment inside (environment (context outside))
 
--- | The items of the list over which a statement repeats its block. Every item takes one step.
-itemsOf :: Environment -> Expr -> Eval [Value]
-itemsOf env list = do
-  vs <- Expression.items <$> Expression.evaluate env list
-  vs <$ Evaluation.spend (region list) (length vs)
+-- | The turns of a statement that repeats its block. Every turn takes one step.
+turnsOf :: Environment -> Expr -> Eval [Turn]
+turnsOf env list = do
+  turns <- Expression.evaluate env list >>= Expression.turnsOf (region list)
+  turns <$ Evaluation.spend (region list) (length turns)
 
--- | Evaluates the block @body@ once for each value in @vs@, with the local name @name@ bound to
--- this value. Names that one repetition defines are unknown in the next one. @d@ is the dimension
--- of the numbers in the values.
-repeated :: Located Name -> Dimension -> [Checked.Statement] -> [Value] -> State -> State
-repeated (Located at name) d body vs state = foldl once state vs
+-- | Evaluates the block @body@ once for each of the @turns@, with the local name @name@ bound to
+-- the value of this turn. Names that one repetition defines are unknown in the next one. @d@ is the
+-- dimension of the numbers in the values.
+repeated :: Located Name -> Dimension -> [Checked.Statement] -> [Turn] -> State -> State
+repeated (Located at name) d body turns state = foldl once state turns
   where
     env = environment (context state)
-    once before v = foldl step (withEnvironment (kept v before) (Expression.bind name v env)) body
+    once before turn =
+      let inside = Expression.bindTurn name turn env
+       in foldl step (withEnvironment (kept (Expression.self turn) before) inside) body
     kept v before = before {readings' = (at, written v) : readings' before}
     written = Expression.written (Expression.textUnit env) d
 

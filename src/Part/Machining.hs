@@ -16,6 +16,7 @@ module Part.Machining
 where
 
 import Base.Crash (bug)
+import Base.NumberTable qualified as NumberTable
 import Base.Quantity (Mm (..), Rad (..), over, times)
 import Base.Region (Located (..), Region (..))
 import Base.Region qualified as Region
@@ -34,6 +35,7 @@ import Geometry.WindingNumber qualified as WindingNumber
 import Part.Body qualified as Body
 import Part.ContourElement qualified as ContourElement
 import Part.ContourError (ContourFault (OpenBegins))
+import Part.Curve qualified as Curve
 import Part.CurveError (CurveMistake (SteepBevel))
 import Part.CutFeed (CutFeed)
 import Part.Descent qualified as Descent
@@ -46,6 +48,7 @@ import Part.Measure (feedOf, lengthOf, notNegative, whole)
 import Part.Parameter (Range (UpTo))
 import Part.Parameter qualified as Parameter
 import Part.Part
+import Part.Piece qualified as Piece
 import Part.PlaneRegion (PlaneRegion (..))
 import Part.PlaneRegion qualified as PlaneRegion
 import Part.PocketCheck qualified as PocketCheck
@@ -352,7 +355,8 @@ checkPassCount at count =
 -- Drilling
 
 -- | Evaluates the drilling of one hole or several holes. @at@ is the region of the statement, and
--- @points@ is the expression of the point or the list of points.
+-- @points@ is the expression of the point, the list of points or the table. In a table the depth may
+-- name columns.
 drilling ::
   Context ->
   Region ->
@@ -363,20 +367,16 @@ drilling ::
 drilling context at points depth settings = do
   v <- Expression.evaluate env points
   checkCutter context at DrillStatement
-  d <- lengthOf env Parameter.Depth depth
+  found <- holesOf env points v depth
   peckDepth <- traverse (lengthOf env Parameter.PeckDepth) (Checked.peck settings)
   plunge <- traverse (feedOf env) (Checked.plunge settings)
-  let values = case v of
-        ListValue vs -> Vector.toList vs
-        _ -> [v]
-      pecks = maybe 1 (\p -> ceiling (min 1e9 (over d p) - Tolerance.equal)) peckDepth :: Int
+  let pecksOf h = maybe 1 (pecksIn (holeBottom h)) peckDepth
+      most = maximum (0 : map pecksOf found)
   when
-    (pecks > 1000)
-    ( Evaluation.mistake
-        (NotWhole (region depth) Parameter.PeckCount (UpTo 1000) (fromIntegral pecks))
-    )
-  Evaluation.spend at (length values * pecks)
-  case NonEmpty.nonEmpty (map Expression.point values) of
+    (most > 1000)
+    (Evaluation.mistake (NotWhole (region depth) Parameter.PeckCount (UpTo 1000) (fromIntegral most)))
+  Evaluation.spend at (sum (map pecksOf found))
+  case NonEmpty.nonEmpty found of
     Nothing -> Evaluation.mistake (NothingToDrill (region points))
     Just some -> pure $ do
       tool <- cutter context
@@ -384,16 +384,36 @@ drilling context at points depth settings = do
       travelHeight <- clearanceHeight context
       Just
         Drilling
-          { holes = fmap (Located (region points)) some,
+          { holes = some,
             drillRadius = cutterRadius tool,
             drillSize = cutterSize tool,
-            bottom = times (-1) d,
             travelHeight,
             peckDepth,
             drillFeed
           }
   where
     env = environment context
+    pecksIn :: Mm -> Mm -> Int
+    pecksIn bottom p = ceiling (min 1e9 (-(over bottom p)) - Tolerance.equal)
+
+-- | The holes at the value @v@ of the expression @points@. Columns of a table may be named in the
+-- expression @depth@. It is then evaluated in each row, and a mistake points at the row.
+holesOf :: Environment -> Expr -> Value -> Expr -> Eval [Hole]
+holesOf env points v depth = case v of
+  TableValue t -> do
+    turns <- Expression.turnsOf (region points) v
+    if Piece.mentions (Curve.names t) depth
+      then Evaluation.gather (zipWith (inRow t) [0 ..] turns)
+      else alike (map pointIn turns)
+  ListValue vs -> alike (map Expression.point (Vector.toList vs))
+  _ -> alike [Expression.point v]
+  where
+    alike ps = (\d -> map (`hole` d) ps) <$> lengthOf env Parameter.Depth depth
+    inRow t k turn = hole (pointIn turn) <$> lengthOf (inTurn turn) Parameter.HoleDepth (atRow t k)
+    inTurn turn = Expression.withColumns (Expression.columns turn) env
+    atRow t k = depth {region = NumberTable.regionOf (Curve.rows t) k}
+    pointIn = Expression.point . Expression.self
+    hole p d = Hole {holeCentre = Located (region points) p, holeBottom = times (-1) d}
 
 -- Moves
 

@@ -46,6 +46,8 @@ data LimitedQuantity
   | Lead
   | Stepover
   | Depth
+  | -- | the depth of a hole, in a row of a table
+    HoleDepth
   | PassDepth
   | PeckDepth
   | Allowance
@@ -56,6 +58,8 @@ data LimitedQuantity
   | -- | the depth or the radius of a joggle, which is a local step of an edge
     JoggleMeasure
   | SafeHeight
+  | -- | the distance of a point of a table from (0, 0)
+    PolarRadius
   | -- | the length of the cutting edges of a tool
     FluteLength
   | -- | the length of a tool from its tip to the holder
@@ -94,6 +98,7 @@ name parameter = case parameter of
   Lead -> "the lead"
   Stepover -> "the step from pass to pass"
   Depth -> "the depth"
+  HoleDepth -> "the depth of a hole"
   PassDepth -> "the depth of a pass"
   PeckDepth -> "the depth of a peck"
   Allowance -> "the allowance"
@@ -102,6 +107,7 @@ name parameter = case parameter of
   ShapeSize -> "a size of a shape"
   JoggleMeasure -> "a measure of a joggle"
   SafeHeight -> "the safe height"
+  PolarRadius -> "the radius of a point"
   FluteLength -> "the length of the flutes"
   StickOut -> "the stick-out"
   HolderSize -> "a size of the holder"

@@ -27,6 +27,7 @@ module Part.Part
     Accuracy (..),
     deviationLimits,
     Drilling (..),
+    Hole (..),
     Command (..),
     Cutter (..),
     CutterKind (..),
@@ -363,13 +364,11 @@ deviationLimits accuracy = case accuracy of
 
 -- | The drilling of holes.
 data Drilling = Drilling
-  { -- | the centres of the holes, in the order of drilling
-    holes :: NonEmpty (Located Point),
+  { -- | the holes in the order of the program
+    holes :: NonEmpty Hole,
     drillRadius :: Mm,
     -- | the region of the diameter of the drill
     drillSize :: Maybe Region,
-    -- | the height of the bottom of the holes, which is negative
-    bottom :: Mm,
     -- | the height at which the drill moves from hole to hole
     travelHeight :: Mm,
     -- | the largest depth to drill before the drill is retracted; if it is absent, each hole is
@@ -377,6 +376,10 @@ data Drilling = Drilling
     peckDepth :: Maybe Mm,
     drillFeed :: Located CutFeed
   }
+  deriving stock (Eq, Show)
+
+-- | A hole: its centre, and the height of its bottom, which is negative.
+data Hole = Hole {holeCentre :: Located Point, holeBottom :: Mm}
   deriving stock (Eq, Show)
 
 -- | A command to the machine: an auxiliary function.

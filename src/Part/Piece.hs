@@ -8,6 +8,7 @@ module Part.Piece
   ( table,
     piece,
     bevelled,
+    mentions,
   )
 where
 
@@ -26,6 +27,7 @@ import Checked.Syntax
     Expr_ (..),
     Joggle,
     Joggle_ (..),
+    PointColumns (..),
     Side (..),
   )
 import Checked.Syntax qualified as Checked
@@ -55,25 +57,34 @@ import Part.Tolerance qualified as Tolerance
 import Part.Value (Value (..))
 import Part.Value qualified as Value
 
--- | Evaluates the rows of a table. Fails if the absolute value of a coordinate, in the first two
--- columns, exceeds 'Tolerance.reach'. The count of evaluation steps is limited, but rows of numbers
--- take no steps: the length of the text already limits the count of such rows.
+-- | Evaluates the rows of a table, and turns polar coordinates into x and y. Fails if the absolute
+-- value of x, y or a radius exceeds 'Tolerance.reach', or if a radius is negative. The count of
+-- evaluation steps is limited, but rows of numbers take no steps: the length of the text already
+-- limits the count of such rows.
 table :: Environment -> Columns -> Eval PartTable
-table env (Columns names written) = do
+table env (Columns coordinates names written) = do
   parts <- Evaluation.collect (fmap pure . evaluated) written
   pure PartTable {rows = NumberTable.concatenated (2 + length names) parts, names = map fst names}
   where
     evaluated cells = case cells of
-      Numbers rows -> rows <$ Evaluation.collect (reachable rows) [0 .. NumberTable.count rows - 1]
+      Numbers rows -> placed rows
       Written at es -> do
         vs <- traverse (fmap Expression.number . Expression.evaluate env) es
-        NumberTable.fromList [(at, PrimArray.primArrayFromList vs)]
-          <$ mapM_ (Value.within at) (take 2 vs)
-    reachable :: NumberTable -> Int -> Eval [()]
-    reachable rows k = do
+        placed (NumberTable.fromList [(at, PrimArray.primArrayFromList vs)])
+    placed rows =
+      let turned = case coordinates of
+            CartesianRows -> rows
+            PolarRows -> NumberTable.mapPairs (\r a -> (r * cos a, r * sin a)) rows
+       in turned <$ Evaluation.collect (checked rows) [0 .. NumberTable.count rows - 1]
+    checked :: NumberTable -> Int -> Eval [()]
+    checked rows k = do
       let at = NumberTable.regionOf rows k
-      Value.within at (NumberTable.cell rows k 0)
-      [] <$ Value.within at (NumberTable.cell rows k 1)
+          first = NumberTable.cell rows k 0
+      Value.within at first
+      [] <$ case coordinates of
+        CartesianRows -> Value.within at (NumberTable.cell rows k 1)
+        PolarRows ->
+          when (first < 0) (Evaluation.mistake (Negative at Parameter.PolarRadius first))
 
 -- | Recalculates the curve @base@ by @ciphers@ in their order, and then applies @joggles@ in their
 -- order. All ciphers and joggles shift the curve to the given side, left or right of its direction.

@@ -32,7 +32,7 @@ operation s o = case o of
   Pocket (Located at p) ->
     Pocket (Located at p {wall = milling (wall p), islands = map (image s) (islands p)})
   Drill (Located at d) ->
-    Drill (Located at d {holes = fmap (fmap (Transformation.point s)) (holes d)})
+    Drill (Located at d {holes = fmap placed (holes d)})
   Travel stops -> Travel (NonEmpty.map stop stops)
   Command c -> Command c
   where
@@ -44,6 +44,7 @@ operation s o = case o of
           retract = map stop (retract m)
         }
     stop p = p {place = fmap (Transformation.point s) (place p)}
+    placed h = h {holeCentre = fmap (Transformation.point s) (holeCentre h)}
     mirrored side'
       | Transformation.mirrors s = case side' of
         LeftSide -> RightSide

@@ -203,10 +203,9 @@ holeNumbers :: Part.Operation -> [Double]
 holeNumbers operation = case operation of
   Part.Drill (Located _ drilling) ->
     let Mm radius = Part.drillRadius drilling
-        Mm bottom = Part.bottom drilling
      in concat
           [ [Vec.x centre, Vec.y centre, radius, bottom]
-            | Located _ centre <- NonEmpty.toList (Part.holes drilling)
+            | Part.Hole (Located _ centre) (Mm bottom) <- NonEmpty.toList (Part.holes drilling)
           ]
   _ -> []
 

@@ -84,7 +84,7 @@ statements =
       ]
     <> under
       "language.md#blocks"
-      [ ("for", "Repeats a block for every item of a list."),
+      [ ("for", "Repeats a block for every item of a list or row of a table."),
         ("if", "Chooses between two blocks, items or values by a condition."),
         ("else", "Begins what is chosen if the condition is false."),
         ("then", "Begins the value that is chosen if the condition is true.")

@@ -35,9 +35,30 @@ data Typings = Typings
 -- | The kinds of text that may come at the cursor. The list is empty where only a new name can
 -- come.
 slots :: Typings -> Cursor -> [Slot]
-slots typings cursor = nub (inLevel typings cursor (levels cursor) <> unit)
+slots typings cursor = nub (withColumns (inLevel typings cursor (levels cursor)) <> unit)
   where
     unit = [AtUnit | isAfterNumber cursor]
+    withColumns found = [AtColumn columns | not (null columns), any isValue found] <> found
+    columns = nub (concatMap (columnsOf typings) (tablesAround cursor))
+    isValue slot = case slot of
+      AtValue _ _ -> True
+      _ -> False
+
+-- | The names after the word @in@ of the repetitions around the cursor, and after the word @at@ of
+-- a drilling statement before its depth. If such a name is that of a table, the names of its
+-- columns are values at the cursor.
+tablesAround :: Cursor -> [Text]
+tablesAround cursor = drilled <> concatMap repeatedIn (NonEmpty.tail (levels cursor))
+  where
+    repeatedIn l = case reverse (heads l) of
+      first : rest | isWord first ["for"] -> wordsOf (drop 1 (dropWhile (not . isIn) rest))
+      _ -> []
+    isIn t = isWord t ["in"]
+    drilled = case [reverse (heads l) | l <- NonEmpty.toList (levels cursor), isDrilling l] of
+      (_ : rest) : _ | any (`isWord` ["depth"]) rest -> wordsOf (takeWhile (not . isDepth) rest)
+      _ -> []
+    isDrilling l = any (`isWord` ["drill"]) (take 1 (reverse (heads l)))
+    isDepth t = isWord t ["depth"]
 
 inLevel :: Typings -> Cursor -> NonEmpty Level -> [Slot]
 inLevel typings cursor (top :| outer) = case opening top of
@@ -170,7 +191,7 @@ inside written around = case around of
 inList :: [Slot] -> [Token] -> [Slot]
 inList around written = case break (`isWord` ["for"]) current of
   (_, _ : rest) -> case break (`isWord` ["in"]) rest of
-    (_, _ : list) -> operand [AtValue [ListOf (Variable 0)] False] [] list
+    (_, _ : list) -> operand [AtValue [ListOf (Variable 0), Table (Variable 0)] False] [] list
     ([_], []) -> [AtWord [GrammarWord "in" "in "]]
     _ -> []
   (segment, []) -> operand [AtValue items False] [AtWord [GrammarWord "for" "for "]] segment

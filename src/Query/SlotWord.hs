@@ -74,11 +74,11 @@ entries keyword = case keyword of
   "pocket" -> onContour (words' ["step"]) <> [("step", (value Type.len, []))]
   "drill" ->
     own (words' ["at"]) []
-      <> [ ("at", ([AtValue [ListOf Type.aPoint, Type.aPoint] False], words' ["depth"])),
+      <> [ ("at", ([AtValue [ListOf Type.aPoint, Type.aPoint, Table (Variable 0)] False], words' ["depth"])),
            ("depth", (value Type.len, []))
          ]
   "with" -> own (value Transformation) []
-  "for" -> own [] (words' ["in"]) <> [("in", (value (ListOf (Variable 0)), []))]
+  "for" -> own [] (words' ["in"]) <> [("in", (repeated, []))]
   "if" -> own (value Boolean) [] <> [("else", (words' ["if"], []))]
   _ -> commandEntries keyword
   where
@@ -185,7 +185,7 @@ item w = case w of
   "fillet" -> Just (value Type.len, element)
   "chamfer" -> Just (value Type.len, element)
   "for" -> Just ([], words' ["in"])
-  "in" -> Just (value (ListOf (Variable 0)), [])
+  "in" -> Just (repeated, [])
   "if" -> Just (value Boolean, [])
   "else" -> Just (words' ["if"], [])
   _ -> Nothing
@@ -237,6 +237,10 @@ cipherTypes digit index = case (digit, index) of
 
 sides :: [Text]
 sides = ["outside", "inside", "left", "right", "on"]
+
+-- | The slot of what a repetition goes through.
+repeated :: [Slot]
+repeated = [AtValue [ListOf (Variable 0), Table (Variable 0)] False]
 
 value :: Type -> [Slot]
 value t = [AtValue [t] False]

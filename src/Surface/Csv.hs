@@ -23,6 +23,9 @@ import Base.Region qualified as Region
 import Control.Monad.ST (ST, runST)
 import Data.Char (isAlpha, isAlphaNum, isDigit, isSpace)
 import Data.Either (partitionEithers)
+import Data.IntSet (IntSet)
+import Data.IntSet qualified as IntSet
+import Data.List (foldl')
 import Data.List.NonEmpty (NonEmpty (..))
 import Data.List.NonEmpty qualified as NonEmpty
 import Data.Primitive.PrimArray
@@ -48,14 +51,37 @@ table begin text = case filter (not . Text.all isSpace . value) (linesOf begin t
   [] -> ([EmptyTable (Region begin begin)], [])
   header : rest ->
     let separator = separatorOf (value header)
-        (headingErrors, first) = headings separator header
+        texts = textColumns separator header rest
+        (headingErrors, first) = headings separator texts header
         columns = case value first of
-          Header hs -> Just (length hs)
+          Header hs -> Just (length hs + IntSet.size texts)
           Entries _ -> Nothing
           Numbers _ -> Nothing
           BrokenLine -> Nothing
-        (rowErrors, rows) = unzip (rowsFrom separator columns 1 rest)
+        (rowErrors, rows) =
+          unzip $
+            if IntSet.null texts
+              then rowsFrom separator columns 1 rest
+              else zipWith (fullRow separator texts columns) [1 ..] rest
      in (headingErrors <> concat rowErrors, first : rows)
+
+-- | The indices from 0 of the columns of texts, such as names of holes. They are left out of the
+-- table. At least one cell of such a column is a text, and the others are empty.
+textColumns :: Char -> Located Text -> [Located Text] -> IntSet
+textColumns separator header rows = IntSet.intersection possible withText
+  where
+    cellsIn = zip [0 ..] . map value . NonEmpty.toList . cellsOf separator
+    columnsWith is line = IntSet.fromList [k | (k, c) <- cellsIn line, is c]
+    -- The columns without a number in the first row, then in all rows.
+    possible = foldl' withoutNumbers (IntSet.difference free (numbersIn (take 1 rows))) (drop 1 rows)
+    free = columnsWith (not . isCoordinate) header
+    withoutNumbers left line
+      | IntSet.null left = left
+      | otherwise = IntSet.difference left (numbersIn [line])
+    numbersIn = foldMap (columnsWith (\c -> not (Text.null c || isText c)))
+    withText = foldMap (columnsWith isText) (if IntSet.null possible then [] else rows)
+    isText c = maybe False (not . (`elem` ("0123456789+-.,(" :: String)) . fst) (Text.uncons c)
+    isCoordinate c = take 1 (Text.words c) `elem` map pure ["x", "y", "angle", "radius"]
 
 -- | Reads the rows @texts@, of which the first is row @k@ of the table, counted from 1. Gives the
 -- errors and the line for each run of plain rows and for each other row. @columns@ is the number of
@@ -76,7 +102,7 @@ rowsFrom separator columns k texts =
     other = case remaining of
       [] -> []
       text : rest ->
-        fullRow separator columns (k + count) text :
+        fullRow separator IntSet.empty columns (k + count) text :
         rowsFrom separator columns (k + count + 1) rest
 
 -- Plain rows
@@ -194,10 +220,11 @@ trimmed from part
 
 -- Headings
 
--- | Reads the line that names the columns; @separator@ separates the names.
-headings :: Char -> Located Text -> ([Error], TableLine)
-headings separator line =
-  case partitionEithers (map heading (NonEmpty.toList (cellsOf separator line))) of
+-- | Reads the line that names the columns; @separator@ separates the names. The columns with the
+-- indices @texts@ are left out.
+headings :: Char -> IntSet -> Located Text -> ([Error], TableLine)
+headings separator texts line =
+  case partitionEithers (map heading (without texts (NonEmpty.toList (cellsOf separator line)))) of
     ([], h : hs) -> ([], Located (region line) (Header (h :| hs)))
     (errors, _) -> (errors, Located (region line) BrokenLine)
 
@@ -224,9 +251,9 @@ isColumnName word =
 -- Other rows
 
 -- | Reads row @k@, counted from 1, cell by cell. The row must have @columns@ cells, or any number
--- of cells if @columns@ is 'Nothing'.
-fullRow :: Char -> Maybe Int -> Int -> Located Text -> ([Error], TableLine)
-fullRow separator columns k line = case partitionEithers (map (number separator) cells) of
+-- of cells if @columns@ is 'Nothing'. The cells with the indices @texts@ are left out.
+fullRow :: Char -> IntSet -> Maybe Int -> Int -> Located Text -> ([Error], TableLine)
+fullRow separator texts columns k line = case partitionEithers numbers of
   ([], _)
     | Just n <- columns,
       n /= length cells ->
@@ -236,13 +263,21 @@ fullRow separator columns k line = case partitionEithers (map (number separator)
   ([], e : es) -> ([], Located (region line) (Entries (e :| es)))
   (errors, _) -> (errors, Located (region line) BrokenLine)
   where
-    cells = withoutLastEmpty (NonEmpty.toList (cellsOf separator line))
+    numbers = map (number separator) (without texts cells)
+    cells = lastCells (NonEmpty.toList (cellsOf separator line))
+    -- The empty cell of a text at the end of a line is no separator too much.
+    lastCells = if maybe False (`IntSet.member` texts) lastColumn then id else withoutLastEmpty
+    lastColumn = subtract 1 <$> columns
     -- True if the row has more than @n@ cells, all of them integers. The cells may then be the
     -- halves of numbers with a decimal comma.
     isDecimalComma n =
       separator == ','
         && length cells > n
         && all (Text.all isDigit . Text.dropWhile (`elem` ['-', '+']) . value) cells
+
+-- | A list without the items at the given indices from 0.
+without :: IntSet -> [a] -> [a]
+without indices list = [x | (k, x) <- zip [0 ..] list, not (IntSet.member k indices)]
 
 -- | The cells of a row without an empty last cell, which a separator at the end of a line makes.
 -- The empty cell is kept if only one cell is before it.

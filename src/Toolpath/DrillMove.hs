@@ -10,7 +10,7 @@ import Base.Region (Located (..))
 import Data.List.NonEmpty qualified as NonEmpty
 import Geometry.Segment (Segment (Straight))
 import Geometry.Tolerance qualified as Tolerance
-import Part.Part (Drilling, SpacePoint (..))
+import Part.Part (Drilling, Hole (Hole), SpacePoint (..))
 import Part.Part qualified as Part
 import Toolpath.LinkingMove qualified as LinkingMove
 import Toolpath.Toolpath (Manner (Manner), Move (Move))
@@ -25,31 +25,31 @@ moves at (Located region d) =
     clear = Part.travelHeight d
     go from holes = case holes of
       [] -> []
-      Located hole p : rest ->
+      Hole (Located hole p) bottom : rest ->
         let over =
               LinkingMove.straightMoves from [Part.Stop (Located hole p) (Just clear) Part.Rapid]
          in over
               <> [ Move (Straight p p) (Manner heights pace False) hole False
-                   | (heights, pace) <- pecks
+                   | (heights, pace) <- pecksTo bottom
                  ]
               <> go (SpacePoint p clear) rest
-    -- The vertical moves are the same at each hole.
-    pecks = concat (zipWith peck (Nothing : map Just depths) depths)
+    -- The vertical moves in a hole.
+    pecksTo bottom =
+      let depths = depthsOf d bottom
+       in concat (zipWith peck (Nothing : map Just depths) depths)
     peck before z =
       let from = maybe clear (\b -> min clear (plus b peckGap)) before
        in [((clear, from), Part.Rapid) | from /= clear]
             <> [((from, z), Part.At (Part.drillFeed d)), ((z, clear), Part.Rapid)]
-    depths = depthsOf d
 
--- | The heights at which the pecks of a hole end, in order. All pecks have equal depths, at most
+-- | The heights at which the pecks of a hole end, in order; @bottom@ is the height of its bottom. All pecks have equal depths, at most
 -- the depth that the program gives. If this would need more than 10000 pecks, there are 10000
 -- deeper ones. Without pecking the only height is that of the hole's bottom.
-depthsOf :: Drilling -> [Mm]
-depthsOf d = case Part.peckDepth d of
-  Nothing -> [Part.bottom d]
+depthsOf :: Drilling -> Mm -> [Mm]
+depthsOf d (Mm bottom) = case Part.peckDepth d of
+  Nothing -> [Mm bottom]
   Just (Mm most) ->
-    let Mm bottom = Part.bottom d
-        count = max 1 (min 10000 (ceiling (-bottom / most - Tolerance.equal))) :: Int
+    let count = max 1 (min 10000 (ceiling (-bottom / most - Tolerance.equal))) :: Int
      in [Mm (bottom * fromIntegral k / fromIntegral count) | k <- [1 .. count]]
 
 -- | The height above the end of one peck at which the rapid move down to the next peck ends.

@@ -128,7 +128,12 @@ intoContent path
 
 -- | Hole of a drilling statement: the number of the block, the centre, the drill's radius, the
 -- height of its bottom.
-data Hole = Hole {holeBlock :: Int, holeAt :: Located Point, holeRadius :: Mm, holeBottom :: Mm}
+data DrilledHole = DrilledHole
+  { holeBlock :: Int,
+    holeAt :: Located Point,
+    holeRadius :: Mm,
+    holeBottom :: Mm
+  }
 
 -- | Warnings about rapid moves into the column of a hole before it is drilled down to there; at
 -- most one for each region of the program that asks for such moves. Moves that rise vertically and
@@ -164,9 +169,9 @@ intoHoles path =
     holes =
       BoxTree.index
         (\h -> BoundingBox.inflate (holeRadius h) (BoundingBox.ofPoints (value (holeAt h)) []))
-        [ Hole n h (Part.drillRadius d) (Part.bottom d)
+        [ DrilledHole n h (Part.drillRadius d) bottom
           | (n, Holing (Located _ d) _) <- numbered,
-            h <- NonEmpty.toList (Part.holes d)
+            Part.Hole h bottom <- NonEmpty.toList (Part.holes d)
         ]
 
 -- | The contour that still holds material at the point @p@ and the height @z@: the innermost one

@@ -273,7 +273,7 @@ outlinesOf :: Block -> [[Segment]]
 outlinesOf block = case block of
   Toolpath.Holing (Located _ d) _ ->
     [ [circle (Part.drillRadius d) p]
-      | Located _ p <- NonEmpty.toList (Part.holes d)
+      | Part.Hole (Located _ p) _ <- NonEmpty.toList (Part.holes d)
     ]
   Toolpath.Clearing {Toolpath.pocket = Located _ p} ->
     [concatMap segmentsOf (Part.contour (Part.wall p) : Part.islands p)]

@@ -28,8 +28,8 @@ missingHoles :: Machine -> Toolpath -> [CutterMotion] -> [Finding]
 missingHoles machine path motions =
   [ HoleMissing at p
     | Toolpath.Holing (Located _ drilling) _ <- Toolpath.blocks path,
-      Located at p <- NonEmpty.toList (Part.holes drilling),
-      not (any (isDrilled machine (Part.bottom drilling) p) (near p))
+      Part.Hole (Located at p) bottom <- NonEmpty.toList (Part.holes drilling),
+      not (any (isDrilled machine bottom p) (near p))
   ]
   where
     near p =

@@ -314,18 +314,20 @@ holeMoves slack begin (Located statement drilling) =
     at = plane begin
     clear = Part.travelHeight drilling
     holes = NonEmpty.toList (Part.holes drilling)
-    overHoles = map (\(Located _ p) -> SpacePoint p clear) holes
-    hole (SpacePoint from z) (Located region p) =
-      move region (Straight from p) (z, clear) Part.Rapid :
-      concat (zipWith (step region p) (clear : map returning steps) steps)
+    overHoles = map (\h -> SpacePoint (value (Part.holeCentre h)) clear) holes
+    hole (SpacePoint from z) Part.Hole {Part.holeCentre = Located region p, Part.holeBottom} =
+      let steps = stepsDown holeBottom
+       in move region (Straight from p) (z, clear) Part.Rapid :
+          concat (zipWith (step region p) (clear : map returning steps) steps)
     step region p from to =
       [ vertical region p (clear, from) Part.Rapid,
         vertical region p (from, to) (Part.At (Part.drillFeed drilling)),
         vertical region p (to, clear) Part.Rapid
       ]
     returning z = min clear (plus z (Mm 0.5))
-    steps = [times (fromIntegral k / fromIntegral count) (Part.bottom drilling) | k <- [1 .. count]]
-    count = maybe 1 (stepCount (Part.bottom drilling)) (Part.peckDepth drilling)
+    stepsDown bottom =
+      let count = maybe 1 (stepCount bottom) (Part.peckDepth drilling)
+       in [times (fromIntegral k / fromIntegral count) bottom | k <- [1 .. count]]
     vertical region p = move region (Straight p p)
     move origin path between pace =
       RequiredMove {path, between, slack, pace, slows = False, origin}

@@ -89,21 +89,22 @@ drilling :: Gen Drilling
 drilling = do
   n <- choose (1, 5)
   ps <- vectorOf n (Vec.point <$> coordinate <*> coordinate)
-  deep <- elements [3, 8, 12]
+  deep <- vectorOf n (elements [3, 8, 12])
   peck <- elements [Nothing, Just (Mm 3), Just (Mm 4.5)]
-  let apart = foldr addApart [] ps
+  let apart = foldr addApart [] (zip ps deep)
   pure
     Drilling
-      { Part.holes = NonEmpty.fromList (map here apart),
+      { Part.holes = NonEmpty.fromList (map hole apart),
         Part.drillSize = Nothing,
         Part.drillRadius = Mm 2.5,
-        Part.bottom = Mm (-deep),
         Part.travelHeight = clear,
         Part.peckDepth = peck,
         Part.drillFeed = here (PerMinute (Feed 40))
       }
   where
-    addApart p others = [p | all ((> Mm 15) . Vec.distance p) others] <> others
+    addApart (p, z) others =
+      [(p, z) | all ((> Mm 15) . Vec.distance p . fst) others] <> others
+    hole (p, z) = Part.Hole (here p) (Mm (-z))
 
 -- | A small pocket, sometimes with islands, cleared at one or two depths.
 pocketing :: Gen Part.Pocketing

@@ -41,6 +41,11 @@ spec = do
           piece = "curve k = polyline(t)\npiece w = k cipher 4(^mu, H) left\n"
       defined (table <> piece) `shouldBe` Just "mu@16"
       hovered (table <> piece) `shouldBe` Just ("mu", Nothing)
+    it "leads from a name in a repetition to the heading of its column" $ do
+      let table = "table t {\n  angle radius deep\n  0 0 5\n  9 0 6\n}\n"
+      defined (table <> "drill at t depth ^deep\n") `shouldBe` Just "deep@25"
+      defined (table <> "for p in t {\n  rapid p + (^deep, 0)\n}\n") `shouldBe` Just "deep@25"
+      hovered (table <> "drill at t depth ^deep\n") `shouldBe` Just ("deep", Nothing)
     it "has no answer for names of the language" $
       defined "let b = ^pi\n" `shouldBe` Nothing
   describe "while the text is broken" $ do
