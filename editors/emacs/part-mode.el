@@ -44,7 +44,7 @@
 
 (defconst part-mode-settings
   '("depth" "lead" "corners" "climb" "conventional" "compensation" "start" "plunge" "peck"
-    "islands" "rest")
+    "shortest" "islands" "rest")
   "The words that begin settings, and that may be names as well.")
 
 (defconst part-mode-functions

@@ -53,7 +53,7 @@ provide-module part %§
     add-highlighter shared/part/code/ regex ^\h*(pocket|work|program|safe|stock|avoid|dwell)\h+[(-]?\w 1:keyword
     add-highlighter shared/part/code/ regex ^\h*((?:optional\h+)?stop)\h*$ 1:keyword
     add-highlighter shared/part/code/ regex ^\h*(units)\h+(mm|in)\b 1:keyword 2:type
-    add-highlighter shared/part/code/ regex (?:^|\{)\h*(depth|lead|corners|climb|conventional|compensation|start|plunge|peck|islands|rest)\b 1:keyword
+    add-highlighter shared/part/code/ regex (?:^|\{)\h*(depth|lead|corners|climb|conventional|compensation|start|plunge|peck|shortest|islands|rest)\b 1:keyword
     # Words that follow others and are names elsewhere
     add-highlighter shared/part/code/ regex \blead\h+(?:in|out)\h+(line|arc)\b 1:keyword
     add-highlighter shared/part/code/ regex \blead\h+(out)\b 1:keyword

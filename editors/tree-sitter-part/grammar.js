@@ -261,7 +261,8 @@ module.exports = grammar({
     settings: $ => seq('{', repeat($._setting), '}'),
     _setting: $ => choice(
       $.approach, $.retract, $.depth, $.lead, $.allowance, $.corners, $.climb, $.conventional,
-      $.compensation, $.start, $.plunge, $.peck, $.islands, $.rest,
+      $.compensation, $.start, $.plunge, $.peck, $.shortest, $.islands,
+      $.rest,
     ),
     approach: $ => seq('approach', $._stops),
     retract: $ => seq('retract', $._stops),
@@ -270,6 +271,7 @@ module.exports = grammar({
     allowance: $ => seq('allowance', list($._expression)),
     corners: $ => seq('corners', choice('round', 'sharp')),
     climb: _ => 'climb',
+    shortest: _ => 'shortest',
     conventional: _ => 'conventional',
     compensation: $ => seq('compensation', choice('compiler', 'controller')),
     start: $ => seq('start', 'near', $._expression),

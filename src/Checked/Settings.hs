@@ -17,7 +17,7 @@ import Checked.Expression (TypingEnvironment, expect, spatialPoint)
 import Checked.Feed (cutFeed)
 import Checked.Inference (Infer)
 import Checked.Inference qualified as Inference
-import Checked.Syntax (Settings (..))
+import Checked.Syntax (Settings (..), VisitOrder (..))
 import Checked.Syntax qualified as Checked
 import Checked.Type qualified as Type
 import Control.Monad (unless)
@@ -90,6 +90,7 @@ setting env statement (Located at s) = do
       pure $ \sol o ->
         o {tabs = Just (Located at (Checked.Tabs (places' sol) (w' sol) (h' sol) (($ sol) <$> a')))}
     Surface.Peck e -> (\e' sol o -> o {peck = Just (e' sol)}) <$> len e
+    Surface.ShortestWay -> pure (\_ o -> o {visits = Shortest})
     Surface.Islands es ->
       (\es' sol o -> o {islands = map ($ sol) es'})
         <$> mapM (contourOrContours env) (NonEmpty.toList es)
@@ -151,6 +152,7 @@ unset =
       descent = Nothing,
       tabs = Nothing,
       peck = Nothing,
+      visits = AsListed,
       islands = [],
       restAllowed = Nothing
     }
@@ -177,6 +179,7 @@ keyword s = case s of
   Surface.Tabs (Surface.TabCount _) _ _ _ -> "tabs"
   Surface.Tabs (Surface.TabsAt _) _ _ _ -> "tab at"
   Surface.Peck _ -> "peck"
+  Surface.ShortestWay -> "shortest"
   Surface.Islands _ -> "islands"
   Surface.RestAllowed -> "rest"
   Surface.BrokenSetting -> ""

@@ -15,6 +15,7 @@ module Checked.Syntax
     BodySize_ (..),
     Columns (..),
     PointColumns (..),
+    VisitOrder (..),
     Cells (..),
     Cipher,
     Cipher_ (..),
@@ -263,6 +264,11 @@ data Assertion
     Agrees Dimension Expr Expr (Maybe Expr)
   deriving stock (Eq, Show)
 
+-- | The order in which the holes of a statement are drilled: that of the program, or that of a
+-- short way.
+data VisitOrder = AsListed | Shortest
+  deriving stock (Eq, Show)
+
 -- | The settings in the block of a machining statement. Lengths are in mm, feeds in mm/min.
 data Settings = Settings
   { approach :: [Stop],
@@ -287,6 +293,8 @@ data Settings = Settings
     tabs :: Maybe (Located Tabs),
     -- | the largest depth of a peck, which is a step of drilling before the drill is retracted
     peck :: Maybe Expr,
+    -- | the order in which holes are drilled
+    visits :: VisitOrder,
     -- | the islands of a pocket: expressions of contours and of lists of contours
     islands :: [Expr],
     -- | the region of the setting that allows rest material; without it, rest material is a mistake

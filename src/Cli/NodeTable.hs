@@ -13,7 +13,7 @@ where
 import Base.Decimal qualified as Decimal
 import Base.LazyList qualified as LazyList
 import Base.Name (Name (..))
-import Base.Quantity (LengthUnit (..), Mm (..), Rad (..), Seconds (..), minus, times, total)
+import Base.Quantity (LengthUnit (..), Mm (..), Rad (..), Seconds (..), minus, over, times, total)
 import Base.Region (Located (..), Source)
 import Cli.CurveTable qualified as CurveTable
 import Cli.ReferencePointTable qualified as ReferencePointTable
@@ -45,6 +45,7 @@ import Pulse.ControllerRun (StopReason (..))
 import Pulse.RunMeasure (RunTotal (..))
 import Pulse.StopText qualified as StopText
 import Tape.Tape qualified as Tape
+import Toolpath.HoleOrder qualified as HoleOrder
 import Toolpath.Toolpath (Block (..), Move (..), Pass (..), Toolpath)
 import Toolpath.Toolpath qualified as Toolpath
 
@@ -60,7 +61,8 @@ nodes source punched Analysis {part, path} =
         <> CurveTable.fittings part
         <> concatMap contourTables (cutsOf path)
         <> [pocketText unit machine job pass cleared | (job, pass, cleared) <- clearingsOf path]
-        <> holeTable unit [drilling | Holing (Located _ drilling) _ <- Toolpath.blocks path]
+        <> holeTable unit (drillingsOf path)
+        <> holeOrderTable unit (drillingsOf path)
         <> RestMaterialTable.tables path
         <> StockTable.tables unit machine path
         <> [summary unit punched path]
@@ -253,8 +255,15 @@ centreAndRadius unit section = case segment (NonEmpty.head section) of
 
 -- Holes and sums ----------------------------------------------------------------------------------
 
--- | The table of all holes; the empty list if there are no holes.
-holeTable :: LengthUnit -> [Drilling] -> [Text]
+-- | The drilling statements, each with the position of the tool before it.
+drillingsOf :: Toolpath -> [(Point, Drilling)]
+drillingsOf path =
+  [ (Segment.start (Toolpath.segment first), drilling)
+    | Holing (Located _ drilling) (first : _) <- Toolpath.blocks path
+  ]
+
+-- | The table of all holes in the order of drilling; the empty list if there are no holes.
+holeTable :: LengthUnit -> [(Point, Drilling)] -> [Text]
 holeTable unit drillings =
   [ "Holes\n\n"
       <> Table.columns
@@ -265,12 +274,39 @@ holeTable unit drillings =
                 fixed3 unit (times 2 (Part.drillRadius d)),
                 fixed3 unit (times (-1) bottom)
               ]
-              | d <- drillings,
-                Part.Hole (Located _ p) bottom <- NonEmpty.toList (Part.holes d)
+              | (begin, d) <- drillings,
+                Part.Hole (Located _ p) bottom <- NonEmpty.toList (HoleOrder.ordered begin d)
             ]
         )
     | not (null drillings)
   ]
+
+-- | The table of the statements that ask for a short way, with the lengths in the plane of the
+-- rapid moves to all holes: in the order of the list, and in the order of drilling.
+holeOrderTable :: LengthUnit -> [(Point, Drilling)] -> [Text]
+holeOrderTable unit drillings =
+  [ "Rapid moves to the holes\n\n"
+      <> Table.columns
+        [ToRight, ToRight, ToRight, ToRight, ToRight]
+        (["holes", "in order of list", "shortest", "saved", "saved %"] : map row ways)
+    | not (null ways)
+  ]
+  where
+    ways =
+      [ (length listed, HoleOrder.way begin listed, HoleOrder.way begin short)
+        | (begin, d) <- drillings,
+          Part.visits d == Part.Shortest,
+          let listed = centres (Part.holes d)
+              short = centres (HoleOrder.ordered begin d)
+      ]
+    centres holes = [p | Part.Hole (Located _ p) _ <- NonEmpty.toList holes]
+    row (count, before, after) =
+      [ Decimal.whole count,
+        fixed3 unit before,
+        fixed3 unit after,
+        fixed3 unit (minus before after),
+        Decimal.fixed 1 (if before > Mm 0 then 100 * over (minus before after) before else 0)
+      ]
 
 -- | The length of all linking moves, the length and the time of the whole toolpath, the time that
 -- the controller takes, the count of frames, and the size of the tape. Moves for the drilling of

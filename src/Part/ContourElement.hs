@@ -87,8 +87,8 @@ asWritten w =
     }
 
 -- | The elements that one item of a contour's body gives. A repetition gives the elements of its
--- body once for every value of its list or row of its table. A contour that is used as an element gives several
--- elements, too. The flag is true if the contour may be closed.
+-- body once for every value of its list or row of its table. A contour that is used as an element
+-- gives several elements, too. The flag is true if the contour may be closed.
 item :: Environment -> Bool -> Item -> Eval [LinkSolver.LinkedElement]
 item env isWhole (Located at i) = case i of
   For name list body -> do

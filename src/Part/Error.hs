@@ -346,6 +346,7 @@ notWholeReport region number range arguments x =
       Parameter.TipDirection -> Just region
       Parameter.PassCount -> Nothing
       Parameter.PeckCount -> Nothing
+      Parameter.OrderedHoleCount -> Nothing
       Parameter.RowPointCount -> argument 2
       Parameter.RowCount -> argument 4
       Parameter.PointCount -> argument 1

@@ -355,8 +355,8 @@ checkPassCount at count =
 -- Drilling
 
 -- | Evaluates the drilling of one hole or several holes. @at@ is the region of the statement, and
--- @points@ is the expression of the point, the list of points or the table. In a table the depth may
--- name columns.
+-- @points@ is the expression of the point, the list of points or the table. With a table the depth
+-- may name columns.
 drilling ::
   Context ->
   Region ->
@@ -374,7 +374,15 @@ drilling context at points depth settings = do
       most = maximum (0 : map pecksOf found)
   when
     (most > 1000)
-    (Evaluation.mistake (NotWhole (region depth) Parameter.PeckCount (UpTo 1000) (fromIntegral most)))
+    ( Evaluation.mistake
+        (NotWhole (region depth) Parameter.PeckCount (UpTo 1000) (fromIntegral most))
+    )
+  let ordered = if Checked.visits settings == Shortest then length found else 0
+  when
+    (ordered > 10000)
+    ( Evaluation.mistake
+        (NotWhole (region points) Parameter.OrderedHoleCount (UpTo 10000) (fromIntegral ordered))
+    )
   Evaluation.spend at (sum (map pecksOf found))
   case NonEmpty.nonEmpty found of
     Nothing -> Evaluation.mistake (NothingToDrill (region points))
@@ -385,6 +393,7 @@ drilling context at points depth settings = do
       Just
         Drilling
           { holes = some,
+            visits = Checked.visits settings,
             drillRadius = cutterRadius tool,
             drillSize = cutterSize tool,
             travelHeight,

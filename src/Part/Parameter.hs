@@ -140,6 +140,8 @@ data WholeNumber
     TipDirection
   | PassCount
   | PeckCount
+  | -- | the number of holes that a statement orders
+    OrderedHoleCount
   | -- | the number of points in one row of a pattern
     RowPointCount
   | -- | the number of rows of a pattern
@@ -169,6 +171,7 @@ wholeName number = case number of
   TipDirection -> "the direction of the tip"
   PassCount -> "the number of passes"
   PeckCount -> "the number of pecks"
+  OrderedHoleCount -> "the number of holes in a shortest order"
   RowPointCount -> "the number of points in a row"
   RowCount -> "the number of rows"
   PointCount -> "the number of points"

@@ -40,6 +40,7 @@ module Part.Part
     Ends (..),
     Corners (..),
     CutSense (..),
+    VisitOrder (..),
     LeadForm (..),
     Side (..),
     Switch (..),
@@ -59,6 +60,7 @@ import Checked.Syntax
     Sense (..),
     Side (..),
     Switch (..),
+    VisitOrder (..),
   )
 import Data.List.NonEmpty (NonEmpty (..))
 import Data.List.NonEmpty qualified as NonEmpty
@@ -366,6 +368,8 @@ deviationLimits accuracy = case accuracy of
 data Drilling = Drilling
   { -- | the holes in the order of the program
     holes :: NonEmpty Hole,
+    -- | the order in which they are drilled
+    visits :: VisitOrder,
     drillRadius :: Mm,
     -- | the region of the diameter of the drill
     drillSize :: Maybe Region,

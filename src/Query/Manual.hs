@@ -269,7 +269,9 @@ otherSettings =
       [("islands", "Names closed contours inside the pocket that are left uncut.")]
     <> under
       "language.md#drilling"
-      [("peck", "Gives the depth that is drilled before the drill is lifted.")]
+      [ ("peck", "Gives the depth that is drilled before the drill is lifted."),
+        ("shortest", "Has the holes drilled in the order of a short way.")
+      ]
 
 units :: [(Text, ManualEntry)]
 units =

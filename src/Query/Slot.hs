@@ -102,7 +102,7 @@ inSettings cursor keyword top = case reverse (heads top) of
   [] -> setting
   first : rest -> case wordsOf [first] of
     [k]
-      | k `elem` ["climb", "conventional"] -> setting
+      | k `elem` ["climb", "conventional", "shortest"] -> setting
       | otherwise -> afterMarker (fmap (fmap (<> setting)) . SlotWord.setting) k rest
     _ -> []
   where

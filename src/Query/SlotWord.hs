@@ -74,7 +74,7 @@ entries keyword = case keyword of
   "pocket" -> onContour (words' ["step"]) <> [("step", (value Type.len, []))]
   "drill" ->
     own (words' ["at"]) []
-      <> [ ("at", ([AtValue [ListOf Type.aPoint, Type.aPoint, Table (Variable 0)] False], words' ["depth"])),
+      <> [ ("at", (drilled, words' ["depth"])),
            ("depth", (value Type.len, []))
          ]
   "with" -> own (value Transformation) []
@@ -237,6 +237,10 @@ cipherTypes digit index = case (digit, index) of
 
 sides :: [Text]
 sides = ["outside", "inside", "left", "right", "on"]
+
+-- | The slot of the places of holes.
+drilled :: [Slot]
+drilled = [AtValue [ListOf Type.aPoint, Type.aPoint, Table (Variable 0)] False]
 
 -- | The slot of what a repetition goes through.
 repeated :: [Slot]

@@ -73,7 +73,7 @@ textColumns separator header rows = IntSet.intersection possible withText
     cellsIn = zip [0 ..] . map value . NonEmpty.toList . cellsOf separator
     columnsWith is line = IntSet.fromList [k | (k, c) <- cellsIn line, is c]
     -- The columns without a number in the first row, then in all rows.
-    possible = foldl' withoutNumbers (IntSet.difference free (numbersIn (take 1 rows))) (drop 1 rows)
+    possible = foldl' withoutNumbers free rows
     free = columnsWith (not . isCoordinate) header
     withoutNumbers left line
       | IntSet.null left = left

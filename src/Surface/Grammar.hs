@@ -392,6 +392,7 @@ settingForms =
     ("tabs", (Tabs . TabCount <$> onSameLine "a number" expr) >>= tabSizes),
     ("tab", keyword "at" *> (Tabs . TabsAt <$> (expr `sepBy1` ",")) >>= tabSizes),
     ("peck", Peck <$> onSameLine "a depth" expr),
+    ("shortest", pure ShortestWay),
     ("islands", Islands <$> (expr `sepBy1` ",")),
     ("rest", RestAllowed <$ keyword "allowed")
   ]

@@ -44,7 +44,7 @@ beginsItem word = word `elem` (["for", "if", "cw", "ccw"] <> settings)
   where
     settings =
       ["approach", "retract", "depth", "lead", "allowance", "corners", "climb", "conventional"]
-        <> ["compensation", "start", "plunge", "peck", "islands", "rest"]
+        <> ["compensation", "start", "plunge", "peck", "shortest", "islands", "rest"]
         <> ["ramp", "helix", "spiral", "tabs", "tab"]
 
 -- | The settings that are allowed in the block of a statement, each by the one or two words with
@@ -70,7 +70,7 @@ settingsOf statement = case statement of
       "rest"
     ]
   "turn" -> linkingMoves <> passes
-  _ -> ["peck", "plunge"]
+  _ -> ["peck", "plunge", "shortest"]
   where
     linkingMoves = ["approach", "retract", "lead in", "lead out"]
     passes = ["allowance", "corners"]

@@ -442,6 +442,7 @@ setting comments indent (Located _ s) = case s of
   Tabs (TabsAt ps) w h a ->
     worded "tab at" (spaced ([Series (pieces ps)] <> tabSizes w h a))
   Peck e -> worded "peck" (value e)
+  ShortestWay -> whole indent (Text "shortest")
   Islands es -> worded "islands" (Series (pieces es))
   RestAllowed -> worded "rest" (Text "allowed")
   BrokenSetting -> []

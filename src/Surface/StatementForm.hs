@@ -171,6 +171,7 @@ settingForms =
     ("tabs", "tabs 4 width 6 height 2"),
     ("tab", "tab at (0, 20) width 6 height 2"),
     ("peck", "peck 4"),
+    ("shortest", "shortest"),
     ("islands", "islands boss, rib"),
     ("rest", "rest allowed")
   ]

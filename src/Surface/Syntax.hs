@@ -423,6 +423,8 @@ data Setting_
     Tabs TabPlaces Expr Expr (Maybe Expr)
   | -- | @peck 3 mm@: the depth that is drilled between two retracts
     Peck Expr
+  | -- | @shortest@: the holes in the order of a short way
+    ShortestWay
   | -- | @islands a, b@: contours in a pocket that are left uncut
     Islands (NonEmpty Expr)
   | -- | @rest allowed@: rest material is accepted

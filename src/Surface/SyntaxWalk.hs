@@ -260,6 +260,7 @@ ofSetting (Located _ s) = case s of
   Tabs (TabCount n) w h a -> [n, w, h] <> toList a
   Tabs (TabsAt ps) w h a -> toList ps <> [w, h] <> toList a
   Peck e -> [e]
+  ShortestWay -> []
   Islands es -> NonEmpty.toList es
   RestAllowed -> []
   BrokenSetting -> []

@@ -198,6 +198,7 @@ setting s = case s of
   Tabs (TabsAt ps) w h a -> Tabs (TabsAt (fmap expr ps)) (expr w) (expr h) (expr <$> a)
   Peck e -> Peck (expr e)
   Islands es -> Islands (fmap expr es)
+  ShortestWay -> ShortestWay
   RestAllowed -> RestAllowed
   BrokenSetting -> BrokenSetting
 

@@ -70,6 +70,7 @@ meanings =
           ("climb", "down downcut down_cut"),
           ("conventional", "up upcut up_cut"),
           ("peck", "pecks pecking q"),
+          ("shortest", "short shorter optimal optimise optimize sort sorted tsp nearest"),
           ("plunge", "plungefeed plunge_feed feedz fz"),
           ("ramp", "ramping slope incline zigzag"),
           ("helix", "helical helixes corkscrew"),

@@ -12,16 +12,19 @@ import Geometry.Segment (Segment (Straight))
 import Geometry.Tolerance qualified as Tolerance
 import Part.Part (Drilling, Hole (Hole), SpacePoint (..))
 import Part.Part qualified as Part
+import Toolpath.HoleOrder qualified as HoleOrder
 import Toolpath.LinkingMove qualified as LinkingMove
 import Toolpath.Toolpath (Manner (Manner), Move (Move))
 
 -- | The moves of a drilling statement; @at@ is the tool's position before the statement. A tool
--- below the clearance height rises to that height first.
+-- below the clearance height rises to that height first. "Toolpath.HoleOrder" gives the order of
+-- the holes.
 moves :: SpacePoint -> Located Drilling -> [Move]
 moves at (Located region d) =
   LinkingMove.rise at clear (LinkingMove.keyword 4 region)
-    <> go (SpacePoint (plane at) (max clear (height at))) (NonEmpty.toList (Part.holes d))
+    <> go (SpacePoint (plane at) (max clear (height at))) (NonEmpty.toList ordered)
   where
+    ordered = HoleOrder.ordered (plane at) d
     clear = Part.travelHeight d
     go from holes = case holes of
       [] -> []
@@ -42,9 +45,9 @@ moves at (Located region d) =
        in [((clear, from), Part.Rapid) | from /= clear]
             <> [((from, z), Part.At (Part.drillFeed d)), ((z, clear), Part.Rapid)]
 
--- | The heights at which the pecks of a hole end, in order; @bottom@ is the height of its bottom. All pecks have equal depths, at most
--- the depth that the program gives. If this would need more than 10000 pecks, there are 10000
--- deeper ones. Without pecking the only height is that of the hole's bottom.
+-- | The heights at which the pecks of a hole end, in order; @bottom@ is the height of its bottom.
+-- All pecks have equal depths, at most the depth that the program gives. If this would need more
+-- than 10000 pecks, there are 10000 deeper ones. Without pecking the only height is the bottom's.
 depthsOf :: Drilling -> Mm -> [Mm]
 depthsOf d (Mm bottom) = case Part.peckDepth d of
   Nothing -> [Mm bottom]

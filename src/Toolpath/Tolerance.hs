@@ -1,5 +1,6 @@
 -- | The tolerances of toolpaths: the smallest cutter that is suggested, the depth to which the arc
--- of a lead may cut into the part, and what a modern control needs for cutter compensation.
+-- of a lead may cut into the part, what an exchange of links has to save, and what a modern control
+-- needs for cutter compensation.
 --
 -- The program for a control is rounded to pulses, and the control computes the offset of the
 -- rounded contour. With these tolerances the control refuses nothing in the rounded program, and
@@ -9,6 +10,7 @@ module Toolpath.Tolerance
   ( smallestCutter,
     alongTabs,
     arcIntrusion,
+    wayShortened,
 
     -- * Cutter compensation
     controlMargin,
@@ -35,6 +37,11 @@ alongTabs = Mm 0.01
 -- allows for coordinates of the program that are rounded to a few thousandths of a millimetre.
 arcIntrusion :: Mm
 arcIntrusion = Mm 1e-3
+
+-- | The length by which an exchange of two links has to shorten the way through holes. It lies far
+-- below a pulse, and far above the rounding errors of the sums that are compared.
+wayShortened :: Mm
+wayShortened = Mm 1e-6
 
 -- | The margin by which the first and the last straight move under compensation must exceed the
 -- cutter's radius. With this margin they also exceed the radius after rounding to pulses.

@@ -50,6 +50,7 @@ import Verify.Pocket (ClearingPass, Pocket)
 import Verify.Pocket qualified as Pocket
 import Verify.RequiredLink (Place (Place), RequiredLink (RequiredLink))
 import Verify.RequiredLink qualified as RequiredLink
+import Verify.RequiredOrder qualified as RequiredOrder
 import Verify.Requirement qualified as Requirement
 
 -- | Move that the program asks for.
@@ -301,7 +302,8 @@ beginnings toolpath = scanl after (value (Toolpath.start toolpath)) (Toolpath.bl
     endOf m = SpacePoint (Segment.end (Toolpath.segment m)) (snd (Toolpath.heights m))
 
 -- | Moves of a drilling statement, as the manual describes them (docs/language.md, "Drilling"). The
--- drill goes from hole to hole in rapid at the clearance height. In a hole it goes down at the feed
+-- drill goes from hole to hole in rapid at the clearance height, in the order of
+-- "Verify.RequiredOrder". In a hole it goes down at the feed
 -- of the statement, and rises in rapid to the clearance height. With pecks it goes down in equal
 -- steps, none deeper than the peck. It returns in rapid to 0.5 mm above the end of the step before,
 -- but not above the clearance height. @begin@ is the drill's position before the statement. @slack@
@@ -313,7 +315,7 @@ holeMoves slack begin (Located statement drilling) =
   where
     at = plane begin
     clear = Part.travelHeight drilling
-    holes = NonEmpty.toList (Part.holes drilling)
+    holes = RequiredOrder.holesInOrder at drilling
     overHoles = map (\h -> SpacePoint (value (Part.holeCentre h)) clear) holes
     hole (SpacePoint from z) Part.Hole {Part.holeCentre = Located region p, Part.holeBottom} =
       let steps = stepsDown holeBottom

@@ -90,11 +90,13 @@ drilling = do
   n <- choose (1, 5)
   ps <- vectorOf n (Vec.point <$> coordinate <*> coordinate)
   deep <- vectorOf n (elements [3, 8, 12])
+  visits <- elements [Part.AsListed, Part.Shortest]
   peck <- elements [Nothing, Just (Mm 3), Just (Mm 4.5)]
   let apart = foldr addApart [] (zip ps deep)
   pure
     Drilling
       { Part.holes = NonEmpty.fromList (map hole apart),
+        Part.visits,
         Part.drillSize = Nothing,
         Part.drillRadius = Mm 2.5,
         Part.travelHeight = clear,

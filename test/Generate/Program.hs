@@ -101,6 +101,7 @@ softWords =
     "tab",
     "width",
     "angle",
+    "shortest",
     "corners",
     "compensation",
     "controller",
@@ -296,6 +297,7 @@ setting n =
       Tabs . TabCount <$> expr n <*> expr n <*> expr n <*> maybe' (expr n),
       Tabs . TabsAt <$> nonEmpty 3 (expr n) <*> expr n <*> expr n <*> maybe' (expr n),
       Peck <$> expr n,
+      pure ShortestWay,
       Islands <$> nonEmpty 3 (expr n),
       pure RestAllowed
     ]

@@ -32,7 +32,7 @@ syntax keyword partLink meet near smooth tangent fillet chamfer slow bevel
 syntax keyword partPiece cipher joggle within first last
 syntax keyword partMilling outside inside left right on approach retract allowance
 " Words that may be names as well, where they begin a setting.
-syntax match partMilling /^\s*\zs\(depth\|lead\|corners\|climb\|conventional\|compensation\|start\|plunge\|peck\|islands\|rest\)\>/
+syntax match partMilling /^\s*\zs\(depth\|lead\|corners\|climb\|conventional\|compensation\|start\|plunge\|peck\|shortest\|islands\|rest\)\>/
 syntax match partMilling /\(\<lead\s\+\)\@<=out\>/
 syntax keyword partCutter cone blade diameter
 syntax keyword partFunction pi line true false polar intersection centre_of midpoint foot_of tangency point_on horizontal vertical

@@ -38,6 +38,7 @@
   "manual" "limit" "s"
 ] @keyword
 (climb) @keyword
+(shortest) @keyword
 (conventional) @keyword
 
 ; Definitions
