@@ -196,7 +196,8 @@ typedExpressions s = case value s of
   Drill e f settings -> (Nothing, e) : (Just Type.len, f) : concatMap typedSetting settings
   Mill e _ settings -> (Nothing, e) : concatMap typedSetting settings
   Turn e _ settings -> (Nothing, e) : concatMap typedSetting settings
-  Pocket e f settings -> (Nothing, e) : (Just Type.len, f) : concatMap typedSetting settings
+  Pocket e f _ settings -> (Nothing, e) : (Just Type.len, f) : concatMap typedSetting settings
+  RestOf e f settings -> (Nothing, e) : (Just Type.len, f) : concatMap typedSetting settings
   Contour {} -> concatMap typedItem (SyntaxWalk.itemsOf s)
   LetValue _ _ -> []
   LetFunction {} -> []

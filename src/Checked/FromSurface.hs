@@ -183,12 +183,13 @@ statement env (Located at s) = case s of
     one (machining env Checked.Mill "mill" (outlined env e) side options)
   Surface.Turn e side options ->
     one (machining env Checked.Turn "turn" (expect env Type.Contour e) side options)
-  Surface.Pocket e stepover options ->
+  Surface.Pocket e stepover own options -> done (pocketing env e stepover own options)
+  Surface.RestOf e stepover options ->
     one $
-      (\e' stepover' o sol -> Checked.Pocket (e' sol) (stepover' sol) (o sol))
-        <$> outlined env e
+      (\e' stepover' o sol -> Checked.RestOf (e' sol) (stepover' sol) (o sol))
+        <$> expect env Type.Clearing e
           <*> expect env Type.len stepover
-          <*> Settings.check env "pocket" options
+          <*> Settings.check env "rest" options
   Surface.Drill points depth options ->
     one $ do
       (columns, points') <- pointOrPoints env points
@@ -242,6 +243,24 @@ repeated env counter list body = do
   d <- maybe (pure Dimension.none) (\(t, _, _) -> Type.dimensionOf <$> Inference.resolved t) checked
   let make (_, _, list') sol = Checked.Repeat counter (sol d) (list' sol) (resolveAll sol body')
   pure (make <$> checked)
+
+-- | Checks a statement that clears a pocket, and binds the name of the operation if it has one.
+pocketing ::
+  TypingEnvironment ->
+  Surface.Expr ->
+  Surface.Expr ->
+  Maybe (Located Name) ->
+  [Surface.Setting] ->
+  Infer (Maybe (Deferred Checked.Statement_))
+pocketing env e stepover own options = case own of
+  Nothing -> Inference.separately inside
+  Just name -> defining name (const (Value (region name) Type.Clearing)) inside
+  where
+    inside =
+      (\e' stepover' o sol -> Checked.Pocket (e' sol) (stepover' sol) own (o sol))
+        <$> outlined env e
+          <*> expect env Type.len stepover
+          <*> Settings.check env "pocket" options
 
 -- Definitions
 

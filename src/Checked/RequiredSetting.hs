@@ -101,6 +101,7 @@ machiningKeyword :: Surface.Statement_ -> Text
 machiningKeyword s = case s of
   Surface.Mill {} -> "mill"
   Surface.Pocket {} -> "pocket"
+  Surface.RestOf {} -> "rest"
   Surface.Turn {} -> "turn"
   Surface.Drill {} -> "drill"
   Surface.Travel Surface.RapidMotion _ -> "rapid"
@@ -146,7 +147,8 @@ requirement s = case s of
   Surface.Change _ _ place ->
     none {keywordLength = 6, given = Just ToolSetting, needed = [FromSetting | isJust place]}
   Surface.Mill _ _ options -> none {needed = milling <> forDepth options}
-  Surface.Pocket _ _ options -> none {keywordLength = 6, needed = milling <> forDepth options}
+  Surface.Pocket _ _ _ options -> none {keywordLength = 6, needed = milling <> forDepth options}
+  Surface.RestOf {} -> none {needed = ClearanceSetting : milling}
   Surface.Turn {} -> none {needed = milling}
   Surface.Drill {} ->
     none {keywordLength = 5, needed = [ToolSetting, FeedSetting, FromSetting, ClearanceSetting]}

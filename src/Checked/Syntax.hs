@@ -148,8 +148,10 @@ data Statement_
   | Contour (Located Name) (Located Closure) [Item]
   | Assert Assertion
   | Mill Expr (Located Side) Settings
-  | -- | the contour, the stepover in mm, and the settings
-    Pocket Expr Expr Settings
+  | -- | the contour, the stepover in mm, the name of the operation, and the settings
+    Pocket Expr Expr (Maybe (Located Name)) Settings
+  | -- | the operation that left the material, the stepover in mm, and the settings
+    RestOf Expr Expr Settings
   | Turn Expr (Located Side) Settings
   | -- | the point or the list of points, the depth in mm, and the settings
     Drill Expr Expr Settings

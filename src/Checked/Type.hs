@@ -39,6 +39,8 @@ data Type
   | Contour
   | -- | a region that closed contours bound
     PlaneRegion
+  | -- | a pocket that a statement clears
+    Clearing
   | -- | true or false
     Boolean
   | -- | a point with a height
@@ -119,6 +121,7 @@ describe t = case t of
   Line -> "a line"
   Contour -> "a contour"
   PlaneRegion -> "a region"
+  Clearing -> "a pocket operation"
   Boolean -> "true or false"
   SpacePoint -> "a point with a height"
   Transformation -> "a transformation"
@@ -132,6 +135,7 @@ describe t = case t of
     Line -> "a list of lines"
     Contour -> "a list of contours"
     PlaneRegion -> "a list of regions"
+    Clearing -> "a list of pocket operations"
     Curve _ -> "a list of curves"
     ListOf _ | Just items <- Text.stripPrefix "a list" (describe item) -> "a list of lists" <> items
     _ -> "a list"
@@ -196,6 +200,7 @@ components t = case t of
   Line -> []
   Contour -> []
   PlaneRegion -> []
+  Clearing -> []
   Boolean -> []
   SpacePoint -> []
   Transformation -> []
@@ -217,6 +222,7 @@ substitute dimension unknown t = case t of
   Line -> t
   Contour -> t
   PlaneRegion -> t
+  Clearing -> t
   Boolean -> t
   SpacePoint -> t
   Transformation -> t

@@ -3,6 +3,7 @@ module Offset.Tolerance
   ( clearance,
     ignoredSlot,
     smallestRest,
+    thinnestRest,
     reachedCentre,
     shortestPath,
     resolution,
@@ -30,6 +31,11 @@ ignoredSlot = Mm 0.01
 -- count as rest material: the cutter then counts as reaching the corner.
 smallestRest :: Mm
 smallestRest = Mm 1e-5
+
+-- | The thickness in mm up to which a layer that a larger cutter has left is not cleared by an
+-- operation that clears its rest.
+thinnestRest :: Mm
+thinnestRest = Mm 0.01
 
 -- | The largest distance in mm between the path and the centre of an arc as large as the cutter, at
 -- which the cutter counts as reaching the arc. The material left in the arc is not thicker.

@@ -114,7 +114,12 @@ data ValueFact
   deriving stock (Eq, Show)
 
 -- | A statement that needs cutters of certain kinds.
-data CutterStatement = MillStatement | TurnStatement | PocketStatement | DrillStatement
+data CutterStatement
+  = MillStatement
+  | TurnStatement
+  | PocketStatement
+  | RestStatement
+  | DrillStatement
   deriving stock (Eq, Show)
 
 -- | The report of a mistake. It also points at the outermost and at the innermost function call in
@@ -377,6 +382,7 @@ wrongCutterReport (Region begin _) statement kind =
       MillStatement -> ("mill", "a mill", "change 2 mill(diameter 5 mm)")
       TurnStatement -> ("turn", "a turning tool", "change 2 turn(nose 0.4 mm)")
       PocketStatement -> ("pocket", "a mill", "change 2 mill(diameter 5 mm)")
+      RestStatement -> ("rest", "a mill", "change 2 mill(diameter 5 mm)")
       DrillStatement -> ("drill", "a drill or a mill", "change 2 drill(diameter 5 mm)")
     tool = case kind of
       MillingCutter -> "a mill"

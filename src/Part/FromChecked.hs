@@ -24,6 +24,7 @@ import Data.Map.Strict qualified as Map
 import Data.Maybe (fromMaybe, isJust)
 import Data.Set qualified as Set
 import Data.Text (Text)
+import Data.Vector qualified as Vector
 import Geometry.Carrier (Circle (Circle))
 import Geometry.Tolerance qualified as Tolerance
 import Geometry.Transformation (Transformation)
@@ -48,7 +49,7 @@ import Part.Part
 import Part.Piece qualified as Piece
 import Part.PlaneRegion qualified as PlaneRegion
 import Part.Transformation qualified as Transformation
-import Part.Value (Value (..))
+import Part.Value (ClearedPockets (..), Value (..))
 
 -- | The state of evaluation between two statements. All lists are in reverse order.
 data State = State
@@ -213,8 +214,11 @@ step state (Located at s) = case s of
       (\found -> state {sizes' = reverse found <> sizes' state})
   Checked.Mill e side settings ->
     keep (Machining.milling now Milled at e side settings) (eachPerformed Mill)
-  Checked.Pocket e stepover settings ->
-    keep (Machining.pocketing now at e stepover settings) (eachPerformed Pocket)
+  Checked.Pocket e stepover own settings ->
+    keep (Machining.pocketing now at e stepover settings) $ \found ->
+      maybe id (namedPockets at (fromMaybe [] found)) own (eachPerformed Pocket found)
+  Checked.RestOf e stepover settings ->
+    keep (Machining.restOf now at e stepover settings) (eachPerformed Pocket)
   Checked.Turn e side settings ->
     keep (Machining.milling now Turned at e side settings) (eachPerformed Mill)
   Checked.Drill points depth settings ->
@@ -340,6 +344,13 @@ define state name d v =
           locals = Map.delete (value name) (locals env)
         }
 
+-- | Binds the name of a statement in the region @at@ to the pockets that it clears. There are none
+-- if a mistake is reported.
+namedPockets :: Region -> [Pocketing] -> Located Name -> State -> State
+namedPockets at found name state
+  | null found = state
+  | otherwise = define state name Dimension.none (ClearingValue (ClearedPockets at found False))
+
 -- | A value with its name on the contours that a function of the language has made. Such a contour
 -- has the name of the function, unless the program has given this name to something else.
 named :: Environment -> Located Name -> Value -> Value
@@ -427,7 +438,21 @@ transformed body placing state =
         map (fmap (Transformation.solid placing)) (avoided' inside) <> avoided' state
     }
   where
-    inside = foldl step state {operations' = [], avoided' = []} body
+    inside = foldl step (withEnvironment state outside) {operations' = [], avoided' = []} body
+    outside = env {values = Map.map elsewhere (values env), locals = Map.map elsewhere (locals env)}
+    env = environment (context state)
+
+-- | A value inside a @with@: the pockets in it are cleared outside.
+elsewhere :: Value -> Value
+elsewhere v = case v of
+  ClearingValue c -> ClearingValue c {isElsewhere = True}
+  ListValue vs | holdsPockets v -> ListValue (Vector.map elsewhere vs)
+  _ -> v
+  where
+    holdsPockets value' = case value' of
+      ClearingValue _ -> True
+      ListValue vs -> any holdsPockets (vs Vector.!? 0)
+      _ -> False
 
 -- Values whose type the checker knows
 

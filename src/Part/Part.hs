@@ -23,6 +23,7 @@ module Part.Part
     Tabs (..),
     TabPlaces (..),
     Pocketing (..),
+    Roughing (..),
     Work (..),
     Accuracy (..),
     deviationLimits,
@@ -342,7 +343,22 @@ data Pocketing = Pocketing
     -- the outline nor one another
     islands :: [Contour],
     -- | the distance between neighbouring passes, above 0 and at most the diameter of the cutter
-    stepover :: Mm
+    stepover :: Mm,
+    -- | the operation that has cleared the pocket before, if this one clears only the material that
+    -- it left
+    roughing :: Maybe Roughing
+  }
+  deriving stock (Eq, Show)
+
+-- | An operation with a larger cutter that has cleared a pocket before.
+data Roughing = Roughing
+  { -- | the region of its statement
+    roughedAt :: Region,
+    roughRadius :: Mm,
+    -- | the allowance that it has left at the walls and the islands
+    roughAllowance :: Mm,
+    -- | the height of its lowest pass
+    roughedDownTo :: Mm
   }
   deriving stock (Eq, Show)
 

@@ -8,8 +8,9 @@ where
 import Base.Decimal qualified as Decimal
 import Base.Name (Name (..))
 import Base.Quantity (LengthUnit, Mm (..), times)
-import Base.Region (Region)
+import Base.Region (Region (..))
 import Data.Text (Text)
+import Data.Text qualified as Text
 import Geometry.Vec (Point)
 import Geometry.Vec qualified as Vec
 import Report.Fix qualified as Fix
@@ -30,6 +31,17 @@ data PocketMisfit
     Meets Region Name Name (Region, Region) Bool Point (Maybe Mm)
   | -- | a stepover that exceeds the diameter of the cutter: the stepover, and the diameter
     StepTooWide Region Mm Mm
+  | -- | a pocket whose rest is to be cleared, and which is cleared outside of the transformation:
+    -- the region of its statement
+    RestElsewhere Region Region
+  | -- | such a pocket without a depth: the region of its statement
+    RestWithoutDepth Region Region
+  | -- | a cutter that is not smaller than that of the pocket: the region of the pocket's statement,
+    -- and the radii of the cutter and of that of the pocket
+    RestNotSmaller Region Region Mm Mm
+  | -- | a depth below that of the pocket: the region of the pocket's statement, and the lowest
+    -- heights of the rest operation and of the pocket
+    RestTooDeep Region Region Mm Mm
   deriving stock (Eq, Show)
 
 -- | The report of a fault.
@@ -101,6 +113,51 @@ toReport unit misfit = case misfit of
             | let half = Decimal.inUnit unit (times 0.5 diameter)
           ]
       }
+
+  RestElsewhere region there ->
+    (at region "E0382" "this pocket is cleared outside of the block")
+      { others = [Label (firstWord there) "the pocket is cleared here"],
+        message = ["The transformation would move what is to be cleared away from the pocket."],
+        hints = ["Write the pocket into the same block, or this statement outside of it."]
+      }
+  RestWithoutDepth region there ->
+    (at region "E0383" "the pocket has no depth, so what it leaves cannot be cleared")
+      { others = [Label (firstWord there) "this pocket"],
+        message = ["From one place of the rest to the next the cutter has to be lifted."],
+        hints = ["Give the pocket a depth, for example depth 5."]
+      }
+  RestNotSmaller region there own rough ->
+    (at region "E0380" "the cutter is not smaller than that of the pocket")
+      { others = [Label (firstWord there) "this pocket"],
+        message =
+          [ "The cutter has a diameter of " <> Decimal.inUnit unit (times 2 own)
+              <> ", that of the pocket "
+              <> Decimal.inUnit unit (times 2 rough)
+              <> ". It reaches nothing more."
+          ],
+        hints = ["Change to a smaller cutter before this statement."]
+      }
+  RestTooDeep region there own rough ->
+    ( at
+        region
+        "E0381"
+        ("the pocket is only " <> deep rough <> " deep")
+    )
+      { others = [Label (firstWord there) "this pocket"],
+        message = ["Down to " <> deep own <> " the cutter would be in the full material."],
+        fixes =
+          [ Fix.proposed
+              ( Fix.exchange
+                  ("Write the depth of the pocket, " <> deep rough <> ".")
+                  region
+                  (deep rough)
+              )
+          ],
+        hints = ["Without a depth, the rest is cleared in the passes of the pocket."]
+      }
+  where
+    deep z = Decimal.inUnit unit (times (-1) z)
+    firstWord there = there {end = start there + Text.length "pocket"}
 
 -- | The sentence about the room that a cutter of the given diameter needs.
 roomText :: LengthUnit -> Maybe Mm -> [Text]

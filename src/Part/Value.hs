@@ -2,6 +2,7 @@
 -- parameter @region@ of a check is the region that a mistake points at.
 module Part.Value
   ( Value (..),
+    ClearedPockets (..),
     Argument (..),
     spatial,
     lifted,
@@ -27,7 +28,7 @@ import Part.Error (ValueFact (..))
 import Part.Evaluation (Eval)
 import Part.Evaluation qualified as Evaluation
 import Part.Parameter (Range (FromTo), WholeNumber)
-import Part.Part (Contour)
+import Part.Part (Contour, Pocketing)
 import Part.PlaneRegion (PlaneRegion)
 
 -- | A value of the language. Numbers are in mm, radians, minutes and turns, or in products of
@@ -47,6 +48,18 @@ data Value
   | PlacementValue Transformation
   | TableValue PartTable
   | CurveValue PartCurve
+  | ClearingValue ClearedPockets
+  deriving stock (Eq, Show)
+
+-- | The pockets that a statement with a name clears: one for each part of its region.
+data ClearedPockets = ClearedPockets
+  { -- | the region of the statement
+    clearedAt :: Region,
+    pockets :: [Pocketing],
+    -- | true inside a @with@ if the statement is outside of it, so that the transformation does not
+    -- hold for it
+    isElsewhere :: Bool
+  }
   deriving stock (Eq, Show)
 
 -- | An argument of a built-in function: a value, a value after a word such as @near@ or @left@, or

@@ -48,7 +48,8 @@ regionsAround at s
       | otherwise = []
     settings = case value s of
       Mill _ _ ss -> [region x | x <- ss, contains (region x)]
-      Pocket _ _ ss -> [region x | x <- ss, contains (region x)]
+      Pocket _ _ _ ss -> [region x | x <- ss, contains (region x)]
+      RestOf _ _ ss -> [region x | x <- ss, contains (region x)]
       Turn _ _ ss -> [region x | x <- ss, contains (region x)]
       Drill _ _ ss -> [region x | x <- ss, contains (region x)]
       _ -> []

@@ -71,7 +71,11 @@ entries keyword = case keyword of
   "assert" -> own anything (words' ["within"]) <> [("within", (anything, []))]
   "mill" -> onContour (words' sides)
   "turn" -> onContour (words' sides)
-  "pocket" -> onContour (words' ["step"]) <> [("step", (value Type.len, []))]
+  "pocket" ->
+    onContour (words' ["step"]) <> [("step", (value Type.len, words' ["as"])), ("as", ([], []))]
+  "rest" ->
+    own (words' ["of"]) []
+      <> [("of", (value Clearing, words' ["step"])), ("step", (value Type.len, []))]
   "drill" ->
     own (words' ["at"]) []
       <> [ ("at", (drilled, words' ["depth"])),

@@ -38,6 +38,7 @@ statements =
     ("contour", "contour ${1:name} closed {\n  $0\n}"),
     ("mill", "mill ${1:contour} ${2:outside} {\n  approach (${3:0}, ${4:0})\n  $0\n}"),
     ("pocket", "pocket ${1:contour} step ${2:3 mm} {\n  approach (${3:0}, ${4:0})\n  $0\n}"),
+    ("rest", "rest of ${1:rough} step ${2:1 mm} {\n  depth ${3:4 mm}\n  $0\n}"),
     ("drill", "drill at ${1:points} depth ${2:5 mm}"),
     ("turn", "turn ${1:contour} ${2:outside} {\n  approach (${3:0}, ${4:0})\n  $0\n}"),
     ("rapid", "rapid (${1:0}, ${2:0})"),

@@ -92,7 +92,12 @@ statementForms =
     ("piece", piece),
     ("assert", Assert <$> expr <*> Parsec.optional (keyword "within" *> expr)),
     ("mill", machining "mill" Mill),
-    ("pocket", Pocket <$> expr <* keyword "step" <*> expr <*> settings "pocket"),
+    ( "pocket",
+      Pocket <$> expr <* keyword "step" <*> expr
+        <*> Parsec.optional (onThisLine (keyword "as" *> name))
+        <*> settings "pocket"
+    ),
+    ("rest", RestOf <$> (keyword "of" *> expr) <* keyword "step" <*> expr <*> settings "rest"),
     ("turn", machining "turn" Turn),
     ( "drill",
       keyword "at"

@@ -31,7 +31,7 @@ statements =
 -- @contour pocket closed@. Some of them are whole statements, some need a word after them.
 softStatements :: [Text]
 softStatements =
-  ["pocket", "units", "work", "program", "safe", "stock", "avoid", "stop", "optional", "dwell"]
+  ["pocket", "rest", "units", "work", "program", "safe", "stock", "avoid", "stop", "optional", "dwell"]
 
 -- | The keywords that begin a repetition or a choice, either of statements or of items of a
 -- contour.
@@ -56,24 +56,15 @@ settingsOf statement = case statement of
       <> ["start near", "climb", "conventional"]
       <> passes
       <> ["depth", "plunge", "ramp", "helix", "spiral", "tabs", "tab at", "compensation", "rest"]
-  "pocket" ->
-    [ "islands",
-      "approach",
-      "retract",
-      "climb",
-      "conventional",
-      "allowance",
-      "depth",
-      "plunge",
-      "ramp",
-      "helix",
-      "rest"
-    ]
+  "pocket" -> "islands" : clearing <> ["ramp", "helix"]
+  "rest" -> clearing
   "turn" -> linkingMoves <> passes
   _ -> ["peck", "plunge", "shortest"]
   where
     linkingMoves = ["approach", "retract", "lead in", "lead out"]
     passes = ["allowance", "corners"]
+    clearing =
+      ["approach", "retract", "climb", "conventional", "allowance", "depth", "plunge", "rest"]
 
 -- | The word for a selector, such as @near@ in the argument @near p@.
 selectorWord :: Selector -> Text

@@ -133,11 +133,10 @@ statement comments indent (Located _ s) = case s of
   Assert e within ->
     plain (spaced ([Text "assert", value e] <> maybe [] (\w -> [Text "within", value w]) within))
   Mill e side settings -> machining "mill" e side settings
-  Pocket e step settings ->
-    braces
-      indent
-      (spaced [Text "pocket", value e, Text "step", value step])
-      (concatMap (setting comments (indent + 2)) settings)
+  Pocket e step own settings ->
+    clearing (spaced ([Text "pocket", value e, Text "step", value step] <> namedAs own)) settings
+  RestOf e step settings ->
+    clearing (spaced [Text "rest of", value e, Text "step", value step]) settings
   Turn e side settings -> machining "turn" e side settings
   Drill at depth settings ->
     let before = spaced [Text "drill at", value at, Text "depth", value depth]
@@ -167,11 +166,10 @@ statement comments indent (Located _ s) = case s of
     worded word = cells' Values indent (Text word)
     defined what e = cells' Definitions indent (Text what) (spaced [Text "=", value e])
     block = concatMap (statement comments (indent + 2))
-    machining word e (Located _ side) settings =
-      braces
-        indent
-        (spaced [Text word, value e, Text (sideName side)])
-        (concatMap (setting comments (indent + 2)) settings)
+    machining word e (Located _ side) = clearing (spaced [Text word, value e, Text (sideName side)])
+    clearing before settings =
+      braces indent before (concatMap (setting comments (indent + 2)) settings)
+    namedAs own = [Text ("as " <> name) | Just (Located _ (Name name)) <- [own]]
     spinning spin = case spin of
       SpindleStop -> Text "off"
       SpindleByHand -> Text "manual"

@@ -77,7 +77,7 @@ lineTokens around
     (same, []) -> same
 
 settingBlocks :: [Text]
-settingBlocks = ["mill", "pocket", "turn", "drill"]
+settingBlocks = ["mill", "pocket", "rest", "turn", "drill"]
 
 -- | The keyword of the statement around a token; empty if there is none.
 blockWord :: TokenContext -> Text
@@ -135,6 +135,7 @@ statementForms =
     ("assert", "assert a < b, or assert a = b within 0.01"),
     ("mill", "mill edge outside { depth 10 step 5 }"),
     ("pocket", "pocket recess step 5 { depth 4 }"),
+    ("rest", "rest of rough step 2 { depth 4 }"),
     ("turn", "turn profile outside { allowance 1, 0 }"),
     ("drill", "drill at (10, 20) depth 15 { peck 5 }"),
     ("rapid", "rapid (0, 0)"),

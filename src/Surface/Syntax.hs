@@ -130,8 +130,11 @@ data Statement_
     Assert Expr (Maybe Expr)
   | -- | @mill outline outside { … }@
     Mill Expr (Located Side) [Setting]
-  | -- | @pocket window step 4 mm { … }@: the contour to clear, the stepover
-    Pocket Expr Expr [Setting]
+  | -- | @pocket window step 4 mm as rough { … }@: the contour to clear, the stepover, the name of the
+    -- operation
+    Pocket Expr Expr (Maybe (Located Name)) [Setting]
+  | -- | @rest of rough step 2 mm { … }@: the operation that left the material, the stepover
+    RestOf Expr Expr [Setting]
   | -- | @turn profile outside { … }@
     Turn Expr (Located Side) [Setting]
   | -- | @drill at holes depth 12 mm { … }@

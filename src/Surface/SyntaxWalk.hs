@@ -58,6 +58,7 @@ definedName s = case s of
   Table n _ -> Just n
   Curve n _ -> Just n
   Piece n _ _ _ _ -> Just n
+  Pocket _ _ n _ -> n
   Broken _ n -> n
   _ -> Nothing
 
@@ -104,7 +105,8 @@ ofStatement (Located _ s) = case s of
   Piece _ e ciphers _ joggles -> e : concatMap ofCipher ciphers <> concatMap ofJoggle joggles
   Assert e within -> e : maybeToList within
   Mill e _ settings -> e : concatMap ofSetting settings
-  Pocket e stepover settings -> e : stepover : concatMap ofSetting settings
+  Pocket e stepover _ settings -> e : stepover : concatMap ofSetting settings
+  RestOf e stepover settings -> e : stepover : concatMap ofSetting settings
   Turn e _ settings -> e : concatMap ofSetting settings
   Drill e deep settings -> e : deep : concatMap ofSetting settings
   Travel _ stops -> concatMap ofStop (NonEmpty.toList stops)

@@ -56,7 +56,9 @@ statement s = case s of
      in Piece (here name) (expr e) ciphers (here side) (map (unlocated joggle) joggles)
   Assert e within -> Assert (expr e) (fmap expr within)
   Mill e side settings -> Mill (expr e) (here side) (map (unlocated setting) settings)
-  Pocket e step settings -> Pocket (expr e) (expr step) (map (unlocated setting) settings)
+  Pocket e step own settings ->
+    Pocket (expr e) (expr step) (fmap here own) (map (unlocated setting) settings)
+  RestOf e step settings -> RestOf (expr e) (expr step) (map (unlocated setting) settings)
   Turn e side settings -> Turn (expr e) (here side) (map (unlocated setting) settings)
   Drill at depth settings -> Drill (expr at) (expr depth) (map (unlocated setting) settings)
   Travel motion stops -> Travel motion (fmap stop stops)

@@ -143,6 +143,7 @@ statementMeant word = lookup (Text.toLower word) table
               ("turn", "turning lathe"),
               ("mill", "milling cut"),
               ("pocket", "pocketing pocket_mill"),
+              ("rest of", "rest_mill rest_milling restmill remachine"),
               ("coolant on", "flood m8 m08"),
               ("coolant off", "m9 m09"),
               ("spindle off", "m5 m05"),

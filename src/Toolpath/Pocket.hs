@@ -21,6 +21,8 @@ module Toolpath.Pocket
     PocketMove (..),
     clear,
     finishWalls,
+    clearingDistances,
+    finishingDistances,
     mostSegments,
     linked,
     startPoint,
@@ -84,14 +86,7 @@ data PocketMove
 -- beginning of the first loop. The result is empty when the cutter fits nowhere, and Nothing if the
 -- loops have more than 'mostSegments'.
 clear :: PocketRoom -> Mm -> Maybe Point -> Maybe [PocketMove]
-clear room step from =
-  loopsAt
-    room
-    from
-    ( takeWhile
-        (<= deepest)
-        [plus (nearest' room) (times (fromIntegral k) step) | k <- [0 :: Int ..]]
-    )
+clear room step from = loopsAt room from (takeWhile (<= deepest) (distancesBy room step))
   where
     -- An upper bound: no point of the pocket is further from the walls.
     deepest =
@@ -103,13 +98,23 @@ clear room step from =
 -- @from@ is the cutter's plunge position; Nothing if the cutter plunges at the beginning of the
 -- first loop. Nothing if the loops have more than 'mostSegments'.
 finishWalls :: PocketRoom -> Mm -> Mm -> Maybe Point -> Maybe [PocketMove]
-finishWalls room step before from =
-  loopsAt
-    room
-    from
-    [ plus (nearest' room) (times (fromIntegral k / fromIntegral count) more)
-      | k <- [0 .. count - 1]
-    ]
+finishWalls room step before from = loopsAt room from (finishingDistances room step before)
+
+-- | The distances from the walls of the loops that clear a pocket without detours, from the least
+-- on, without end: the stepover @step@ apart, and at most the radius.
+clearingDistances :: PocketRoom -> Mm -> [Mm]
+clearingDistances room step = distancesBy room (min step (radius room))
+
+-- | Distances from the walls that are @step@ apart, from the least on, without end.
+distancesBy :: PocketRoom -> Mm -> [Mm]
+distancesBy room step = [plus (nearest' room) (times (fromIntegral k) step) | k <- [0 :: Int ..]]
+
+-- | The distances from the walls of the loops of 'finishWalls', from the least on.
+finishingDistances :: PocketRoom -> Mm -> Mm -> [Mm]
+finishingDistances room step before =
+  [ plus (nearest' room) (times (fromIntegral k / fromIntegral count) more)
+    | k <- [0 .. count - 1]
+  ]
   where
     more = minus before (leaves room)
     count = max 1 (ceiling (over more (min step (radius room)) - Tolerance.equal)) :: Int

@@ -32,7 +32,7 @@ import Offset.Tolerance qualified as Tolerance
 import Part.Part
   ( Element,
     Milling (contour, feed),
-    Pocketing (islands, stepover, wall),
+    Pocketing (islands, roughing, stepover, wall),
     SpacePoint (..),
   )
 import Part.Part qualified as Part
@@ -49,6 +49,7 @@ import Toolpath.OffsetRefusal qualified as OffsetRefusal
 import Toolpath.Pocket (PocketMove (..), PocketRoom (..))
 import Toolpath.Pocket qualified as Pocket
 import Toolpath.RestMaterial qualified as RestMaterial
+import Toolpath.RestPath qualified as RestPath
 import Toolpath.Toolpath (Block (..), Manner (Manner), Move (Move), Pass (..))
 import Toolpath.Toolpath qualified as Toolpath
 
@@ -68,13 +69,15 @@ blocks number at (Located region given) = do
   rests <- restAtWalls word pocket
   reverse . snd <$> foldM (addPass rests) (at, []) (zip [1 ..] passes)
   where
-    word = LinkingMove.keyword 6 region
+    word = LinkingMove.keyword (maybe 6 (const 4) (roughing given)) region
     pocket = oriented given
     milling = wall pocket
     elements = elementsOf pocket
     currentHeight =
       fromMaybe (height at) (listToMaybe (mapMaybe Part.level (reverse (Part.approach milling))))
-    passes = passesOf pocket currentHeight
+    passes = filter hasMoves (passesOf pocket currentHeight)
+    -- A larger cutter may have left nothing for a pass.
+    hasMoves pass = isNothing (roughing pocket) || maybe True (not . null) (sectionsFrom pass Nothing)
     lastHeight =
       listToMaybe [Part.place s | s <- reverse (Part.approach milling), isJust (Part.level s)]
     addPass rests (position, done) (k, pass) = do
@@ -296,12 +299,23 @@ movesOf wayDown slopeTo word milling z travelHeight = go
             <> maybe [] (slopeTo q) way
 
 -- | The sections of the passes for each allowance, in the order of the allowances, as functions of
--- the plunge position. The passes with the first allowance clear the floor, the others finish the
--- walls. The result of a function is Nothing if there are too many loops.
+-- the plunge position. The passes with the first allowance clear the floor, or what a larger cutter
+-- has left of it; the others finish the walls. The result of a function is Nothing if there are too
+-- many loops.
 sectionsFor :: Pocketing -> NonEmpty (Maybe Point -> Maybe [PocketMove])
-sectionsFor pocket =
-  (\from -> Pocket.clear (room first) step from)
-    :| zipWith (\before a -> Pocket.finishWalls (room a) step before) (first : more) more
+sectionsFor pocket = case roughing pocket of
+  Nothing ->
+    (\from -> Pocket.clear (room first) step from)
+      :| zipWith (\before a -> Pocket.finishWalls (room a) step before) (first : more) more
+  Just rough ->
+    let along a distances =
+          let found = RestPath.areas (room a) rough distances
+           in \from -> (\areas -> RestPath.sections (room a) rough areas from) <$> found
+     in along first (Pocket.clearingDistances (room first) step)
+          :| zipWith
+            (\before a -> along a (Pocket.finishingDistances (room a) step before))
+            (first : more)
+            more
   where
     first :| more = Part.allowances (wall pocket)
     step = stepover pocket

@@ -2,9 +2,17 @@
 -- a pocket are the elements of its outline and of its islands. The /free side/ of a wall is the
 -- side on which the pocket lies. The /rim/ is the border of the region that the cutter's centre may
 -- enter in the final pass, moved away from the walls by 'spareRoom'.
+--
+-- A statement that clears what a larger cutter has left has a rim only where it has to cut. A point
+-- of the floor within that cutter's radius of a position of its centre is cleared by it, as the
+-- proof of that statement shows. A position on the rim where the smaller cutter covers nothing else
+-- is no part of the rim. This is worked out from the walls and from both radii by distances,
+-- without the loops and chains of the toolpath. Layers that are no thicker than
+-- 'Offset.Tolerance.thinnestRest' count as cleared.
 module Verify.Pocket
   ( Pocket (..),
     ClearingPass (..),
+    RoughedFloor (..),
     pocketsOf,
     withRimOf,
     contains,
@@ -15,7 +23,7 @@ module Verify.Pocket
   )
 where
 
-import Base.Quantity (Mm (..), plus, times)
+import Base.Quantity (Mm (..), minus, plus, times)
 import Base.Region (Located (..), Region)
 import Data.Function (on)
 import Data.List.NonEmpty (NonEmpty (..))
@@ -65,7 +73,19 @@ data Pocket = Pocket
     rimDistance :: Mm,
     -- | rim at another distance from the walls
     rimAt :: Mm -> [(Element, Segment)],
+    -- | floor that a larger cutter has cleared before
+    roughed :: Maybe RoughedFloor,
     passes :: NonEmpty ClearingPass
+  }
+
+-- | Floor of a pocket that a larger cutter has cleared.
+data RoughedFloor = RoughedFloor
+  { -- | border of the positions that the centre of that cutter could take
+    roughRim :: BoxTree Segment,
+    -- | distance of this border from the walls
+    roughRimDistance :: Mm,
+    -- | distance from these positions within which the floor counts as cleared
+    clearedReach :: Mm
   }
 
 -- | Pass of a pocket at one depth.
@@ -107,7 +127,7 @@ pocketsOf blocks = map pocketOf (NonEmpty.groupBy ((==) `on` statementNumber) cl
 -- | Pocket that one statement clears, from the blocks of its passes.
 pocketOf :: NonEmpty Clearing -> Pocket
 pocketOf clearings@(Clearing _ (Located statement pocketing) _ _ :| _) =
-  Pocket {statement, milling, side, walls, bounds, rim, rimDistance, rimAt, passes}
+  Pocket {statement, milling, side, walls, bounds, rim, rimDistance, rimAt, roughed, passes}
   where
     milling = Part.wall pocketing
     side = fromMaybe LeftOf (Requirement.cutterSide milling)
@@ -123,7 +143,14 @@ pocketOf clearings@(Clearing _ (Located statement pocketing) _ _ :| _) =
     rimDistance = plus (Requirement.centreDistance milling lastAllowance) spareRoom
     lastAllowance = NonEmpty.last (Part.allowances milling)
     rim = rimAt rimDistance
-    rimAt distance = rimOf side distance walls contours
+    wholeRimAt distance = rimOf side distance walls contours
+    roughed = roughedFloor wholeRimAt <$> Part.roughing pocketing
+    rimAt distance = case roughed of
+      Nothing -> wholeRimAt distance
+      Just floor'
+        | distance >= roughRimDistance floor' -> []
+        | otherwise ->
+          concatMap (uncleared (Part.radius milling) floor') (wholeRimAt distance)
     passes = fmap passOf clearings
     passOf (Clearing passIndex _ pass linkingMoves) =
       ClearingPass
@@ -173,6 +200,29 @@ rimOf side distance walls contours =
   where
     elements = Vector.fromList (concat contours)
     segments = BoxTree.index BoundingBox.ofSegment (map Part.segment (concat contours))
+
+-- | Floor that a larger cutter has cleared. @rimAt'@ gives the rim at a distance from the walls.
+roughedFloor :: (Mm -> [(Element, Segment)]) -> Part.Roughing -> RoughedFloor
+roughedFloor rimAt' roughing =
+  RoughedFloor
+    { roughRim = BoxTree.index BoundingBox.ofSegment (map snd (rimAt' roughRimDistance)),
+      roughRimDistance,
+      clearedReach = plus (Part.roughRadius roughing) Tolerance.thinnestRest
+    }
+  where
+    roughRimDistance =
+      plus (plus (Part.roughRadius roughing) (Part.roughAllowance roughing)) spareRoom
+
+-- | Parts of a segment of the rim at which a cutter of the radius @r@ covers a point that a larger
+-- cutter has not cleared. The rim is nearer to the walls than the positions of that cutter.
+uncleared :: Mm -> RoughedFloor -> (Element, Segment) -> [(Element, Segment)]
+uncleared r floor' (e, s) =
+  [ (e, Segment.between a b s)
+    | (a, b) <- Distance.uncovered idle near s
+  ]
+  where
+    idle = minus (clearedReach floor') r
+    near = BoxTree.within (BoundingBox.inflate idle (BoundingBox.ofSegment s)) (roughRim floor')
 
 -- | Extra distance of the rim from the walls. The proof demands a cut between two walls only if
 -- their distance exceeds the cutter's width by twice this length. In a narrower passage the cutter

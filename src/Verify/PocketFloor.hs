@@ -16,6 +16,9 @@
 -- offsets of the motion to both sides and of arcs about its ends. Where the next motion begins at
 -- such an end, only the arc on the outer side of the corner is left of these arcs.
 --
+-- After a larger cutter, the positions that it has cleared are no part of A, and their border is a
+-- part of the border of A. It is examined like the rim.
+--
 -- The curves are divided into pieces. A piece needs no division in two cases: it lies within the
 -- distance @reach@ of one motion, or the centre may take no position on it. Any other piece is
 -- halved, down to a quarter of 'floorResolution'. The middle of such a short piece decides for all
@@ -78,9 +81,10 @@ data MotionPart = MotionPart {motion :: Int, part :: [Segment]}
 -- 'floorResolution' may be missed.
 unclearedPoint :: Pocket -> Mm -> [CutterMotion] -> Maybe Point
 unclearedPoint pocket radius clearing =
-  listToMaybe (unclearedOn floor' (Hint 0 Nothing) (map (`Piece` Nothing) curves))
+  listToMaybe (unclearedOn floor' (Hint 0 Nothing Nothing) (map (`Piece` Nothing) curves))
   where
-    curves = map snd (Pocket.rim pocket) <> concatMap borders [LeftOf, RightOf]
+    curves =
+      map snd (Pocket.rim pocket) <> roughBorder pocket <> concatMap borders [LeftOf, RightOf]
     borders side = bordersOn side band (concatMap plainPaths near)
     band = plus radius floorResolution
     -- The bands of all other motions lie outside of the pocket.
@@ -115,6 +119,17 @@ partsOf r motion bounding =
          in ceiling (abs angle / (4 * asin (min 1 (sqrt ratio))))
 
 -- Borders of bands --------------------------------------------------------------------------------
+
+-- | Curves that contain the border of the floor that a larger cutter has cleared; empty without
+-- such a cutter.
+roughBorder :: Pocket -> [Segment]
+roughBorder pocket = case Pocket.roughed pocket of
+  Nothing -> []
+  Just Pocket.RoughedFloor {Pocket.roughRim, Pocket.clearedReach} ->
+    bordersOn
+      (Carrier.oppositeSide (Pocket.side pocket))
+      clearedReach
+      (BoxTree.toList roughRim)
 
 -- | Paths of a motion round which its band lies: the bounding paths. If these are two arcs that
 -- hardly differ, it is the path of the motion alone.
@@ -191,7 +206,9 @@ data Hint = Hint
   { -- | number of the last motion that cleared a piece; 0 if none did
     clearedBy :: Int,
     -- | last wall that was too near to a piece
-    screenedBy :: Maybe Segment
+    screenedBy :: Maybe Segment,
+    -- | last position of a larger cutter that has cleared a piece
+    roughedBy :: Maybe Segment
   }
 
 -- | Uncleared positions on pieces of curves.
@@ -202,6 +219,7 @@ unclearedOn floor' hint pieces = case pieces of
   [] -> []
   Piece {curve, candidates} : more
     | any (screens floor' curve) (screenedBy hint) -> unclearedOn floor' hint more
+    | any (hasRoughed floor' curve) (roughedBy hint) -> unclearedOn floor' hint more
     | n : _ <- filter (clears floor' curve) [known, known + 1, known - 1] -> cleared n
     | isLong -> unclearedOn floor' hint (halves Nothing <> more)
     | n : _ <- filter (clears floor' curve) clearing -> cleared n
@@ -210,6 +228,10 @@ unclearedOn floor' hint pieces = case pieces of
       Just (w, wall) <- nearest,
       isOutside floor' curve middle w wall ->
       unclearedOn floor' hint {screenedBy = Just (Edge.shape wall)} more
+    | null clearing,
+      Just (w, _) <- nearest,
+      Just by <- roughedOf floor' curve middle w ->
+      unclearedOn floor' hint {roughedBy = Just by} more
     | isShort curve -> middle : unclearedOn floor' hint more
     | otherwise -> unclearedOn floor' hint (halves (Just clearingPoints) <> more)
     where
@@ -255,6 +277,36 @@ isOutside floor' piece middle w wall =
     half = times 0.5 (Segment.length piece)
     walls = Pocket.walls (pocket floor')
     limit = wallLimit floor'
+
+-- | Test that a larger cutter has cleared all of a piece from a part of the border of its positions.
+-- If the result is true, this is certain.
+hasRoughed :: Floor -> Segment -> Segment -> Bool
+hasRoughed floor' piece by =
+  or [isWithin (roughedLimit f) piece by | Just f <- [Pocket.roughed (pocket floor')]]
+
+-- | Distance from the positions of a larger cutter up to which the floor counts as cleared. The
+-- border of this floor is examined, so it is no part of it.
+roughedLimit :: Pocket.RoughedFloor -> Mm
+roughedLimit f = minus (Pocket.clearedReach f) Tolerance.clearance
+
+-- | Part of the border of the positions of a larger cutter that is near a piece, if this cutter has
+-- cleared the piece; Nothing if it has not. For a short piece, its middle decides. The distance of
+-- the middle from the nearest wall is @w@.
+roughedOf :: Floor -> Segment -> Point -> Mm -> Maybe Segment
+roughedOf floor' piece middle w = do
+  f <- Pocket.roughed (pocket floor')
+  (d, by) <-
+    BoxTree.closest
+      (\s -> Mm (FastDistance.distance s (Vec.x middle) (Vec.y middle)))
+      middle
+      (Pocket.roughRim f)
+  if hasRoughed floor' piece by
+    || minus w half >= Pocket.roughRimDistance f
+    || isShort piece && (d <= roughedLimit f || w >= Pocket.roughRimDistance f)
+    then Just by
+    else Nothing
+  where
+    half = times 0.5 (Segment.length piece)
 
 -- | Test that a piece is so short that it is not divided.
 isShort :: Segment -> Bool

@@ -135,7 +135,8 @@ pocketing before p =
             Part.rest = Part.Allowed
           },
       Part.islands = map contourOf islands,
-      Part.stepover = step p
+      Part.stepover = step p,
+      Part.roughing = Nothing
     }
   where
     outline :| islands = loops p

@@ -212,7 +212,8 @@ statement n = at (frequency ([(1, s) | s <- simple] <> [(3, s) | n > 0, s <- dee
                         )
                 ),
         Mill <$> expr n <*> at every <*> some' 4 (setting n),
-        Pocket <$> expr n <*> expr n <*> some' 4 (setting n),
+        Pocket <$> expr n <*> expr n <*> maybe' (at name) <*> some' 4 (setting n),
+        RestOf <$> expr n <*> expr n <*> some' 4 (setting n),
         Turn <$> expr n <*> at every <*> some' 4 (setting n),
         Repeat <$> at name <*> expr n <*> inside,
         When <$> expr n <*> inside <*> inside,
