@@ -22,6 +22,7 @@ import Data.List.NonEmpty qualified as NonEmpty
 import Data.Map.Strict qualified as Map
 import Data.Maybe (fromMaybe, isJust, listToMaybe, mapMaybe)
 import Data.Semigroup (sconcat)
+import Data.Set qualified as Set
 import Data.Vector qualified as Vector
 import Geometry.Carrier qualified as Carrier
 import Geometry.ElementCarrier (ElementCarrier (..))
@@ -74,11 +75,12 @@ toToolpath part = case (Part.start part, Part.operations part) of
             path = Toolpath begin over (turns part) setup (Part.unit part)
             errors = Intrusion.intrusions path
          in Result
-              (restWarnings path <> (if null errors then Warning.warnings path else []))
+              (restWarnings path <> (if null errors then others path else []))
               errors
               (Just path)
       (errors, _) -> Result [] errors Nothing
   where
+    others path = idleWarnings part path <> Warning.warnings path
     nowhere = Located (Region 0 0) (SpacePoint (Vec.point 0 0) (Mm 0))
 
 -- | The settings of the whole program.
@@ -127,6 +129,21 @@ restWarnings path =
               | r@Remaining {word, tool} <- RestMaterial.ofPath path
             ]
         )
+
+-- | The warnings about statements that clear the rest of a pocket and find nothing to clear, not
+-- even in one part of a region.
+idleWarnings :: Part -> Toolpath -> [Warning]
+idleWarnings part path =
+  Map.elems
+    ( Map.fromList
+        [ (region, NothingLeft (LinkingMove.pocketKeyword job) (LinkingMove.keyword 6 rough))
+          | Pocket job@(Located region p) <- Part.operations part,
+            Just Part.Roughing {Part.roughedAt = rough} <- [Part.roughing p],
+            region `Set.notMember` moving
+        ]
+    )
+  where
+    moving = Set.fromList [region | Clearing {pocket = Located region _} <- Toolpath.blocks path]
 
 -- | The state between two operations. The fields are strict, so that a state has no reference to
 -- the operations before it.

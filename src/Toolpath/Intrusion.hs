@@ -97,14 +97,14 @@ intrusionsOfBlock machined b = case b of
   Holing (Located _ d) ms ->
     map (asHole d) (concatMap (found (Intruder (Part.drillRadius d) Nothing Nothing)) ms)
   Cutting {} -> intrusionsOfPass machined b
-  Clearing {pocket = Located at p, pass, approach, cleared, retract} ->
+  Clearing {pocket = job@(Located _ p), pass, approach, cleared, retract} ->
     let clearing = Intruder (radius (Part.wall p)) Nothing Nothing
         left = Just (number pass, NonEmpty.last (Part.allowances (Part.wall p)))
      in concatMap (found clearing {leaving = left}) (approach <> retract)
           <> take
             1
             ( concatMap
-                (map (asMilling (LinkingMove.keyword 6 at)) . found clearing)
+                (map (asMilling (LinkingMove.pocketKeyword job)) . found clearing)
                 (NonEmpty.toList cleared)
             )
   where

@@ -11,6 +11,7 @@ module Toolpath.LinkingMove
     endPosition,
     descentPace,
     keyword,
+    pocketKeyword,
   )
 where
 
@@ -22,7 +23,7 @@ import Geometry.Segment (Segment (Straight))
 import Geometry.Segment qualified as Segment
 import Geometry.Vec (Point)
 import Geometry.Vec qualified as Vec
-import Part.Part (Milling (feed), SpacePoint (..), Stop)
+import Part.Part (Milling (feed), Pocketing, SpacePoint (..), Stop)
 import Part.Part qualified as Part
 import Toolpath.Descent (Way)
 import Toolpath.Descent qualified as Descent
@@ -180,6 +181,10 @@ endPosition from ms = case ms of
   [] -> from
   [m] -> SpacePoint (Segment.end (Toolpath.segment m)) (snd (Toolpath.heights m))
   _ : more -> endPosition from more
+
+-- | The first word of a statement that clears a pocket.
+pocketKeyword :: Located Pocketing -> Region
+pocketKeyword (Located region p) = keyword (maybe 6 (const 4) (Part.roughing p)) region
 
 -- | Shortens the region of a statement to its first word, which has @letters@ letters.
 keyword :: Int -> Region -> Region

@@ -69,7 +69,7 @@ blocks number at (Located region given) = do
   rests <- restAtWalls word pocket
   reverse . snd <$> foldM (addPass rests) (at, []) (zip [1 ..] passes)
   where
-    word = LinkingMove.keyword (maybe 6 (const 4) (roughing given)) region
+    word = LinkingMove.pocketKeyword (Located region given)
     pocket = oriented given
     milling = wall pocket
     elements = elementsOf pocket

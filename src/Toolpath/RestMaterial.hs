@@ -12,6 +12,7 @@ import Data.List.NonEmpty (NonEmpty (..))
 import Data.List.NonEmpty qualified as NonEmpty
 import Data.Map.Strict qualified as Map
 import Data.Maybe (mapMaybe)
+import Data.Set qualified as Set
 import Data.Vector qualified as Vector
 import Offset.Equidistant (UnreachedPart)
 import Part.Part (Contour, Milling)
@@ -34,9 +35,24 @@ data Remaining = Remaining
     offsetDistance :: Mm
   }
 
--- | One entry for each statement that leaves rest material, in the order of execution.
+-- | One entry for each statement that leaves rest material, in the order of execution. A pocket is
+-- left out if a later statement clears down to its depth what it has left: what remains then is the
+-- rest of that statement.
 ofPath :: Toolpath -> [Remaining]
-ofPath path = Map.elems (Map.fromList (mapMaybe ofBlock (Toolpath.blocks path)))
+ofPath path =
+  Map.elems (Map.fromList (mapMaybe ofBlock (filter (not . isClearedLater) blocks)))
+  where
+    blocks = Toolpath.blocks path
+    isClearedLater block = case block of
+      Clearing {pocket = Located region _} -> region `Set.member` cleared
+      _ -> False
+    cleared =
+      Set.fromList
+        [ Part.roughedAt r
+          | Clearing {pocket = Located _ p, pass} <- blocks,
+            Just r <- [Part.roughing p],
+            Toolpath.atHeight pass <= Part.roughedDownTo r
+        ]
 
 -- | The number of a block's statement, and the rest material of the block; Nothing if it leaves
 -- none.
@@ -44,8 +60,8 @@ ofBlock :: Block -> Maybe (Int, Remaining)
 ofBlock block = case block of
   Cutting {job = Located region m, pass, rests} ->
     remaining (LinkingMove.keyword 4 region) m [] pass <$> NonEmpty.nonEmpty rests
-  Clearing {pocket = Located region p, pass, rests} ->
-    remaining (LinkingMove.keyword 6 region) (Part.wall p) (Part.islands p) pass
+  Clearing {pocket = job@(Located _ p), pass, rests} ->
+    remaining (LinkingMove.pocketKeyword job) (Part.wall p) (Part.islands p) pass
       <$> NonEmpty.nonEmpty rests
   Travelling {} -> Nothing
   Holing _ _ -> Nothing

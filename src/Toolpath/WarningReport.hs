@@ -54,6 +54,9 @@ data Warning
   | -- | a tool change after which the program does not start the spindle: the statement that
     -- started it before, as the program would write it
     SpindleAtRest Region Text
+  | -- | an operation that clears what a larger cutter has left, where that cutter has left nothing:
+    -- the statement, and the statement of the larger cutter
+    NothingLeft Region Region
   deriving stock (Eq, Show)
 
 -- | Rest material at a position that the cutter does not reach. The last field of 'InConcaveArc'
@@ -116,6 +119,15 @@ warningReport unit warning = case warning of
       (Label hole "not drilled yet")
       "The hole is not drilled"
       "let the drill go down at a feed"
+  NothingLeft region rough ->
+    (report Report.Warning "W0404" (InSource region) "there is no rest that this cutter could clear")
+      { others = [Label rough "this pocket leaves no more than this cutter would"],
+        message = ["So the statement makes no moves."],
+        hints =
+          [ "Leave it out, take a smaller cutter for it, or let the pocket leave more, for example \
+            \allowance 0.3."
+          ]
+      }
   SpindleAtRest region spindle ->
     ( report
         Report.Warning
