@@ -68,7 +68,20 @@ spec = modifyMaxSuccess (const 60) $ do
                   )
               )
           _ -> property False
+  prop
+    "chains away from the walls that are left out are found (catches a floor that counts as cleared)"
+    $ forAll (Generate.rectangle >>= withRough) $ \two ->
+      let wide = two {rough = times 9 (cutter (small two)), roughLeft = left (small two)}
+       in forAllPath wide $ \path ->
+            case (framesOf iso path, framesOf iso (withoutInner wide path)) of
+              (Just program, Just fewer) ->
+                map isFloor (findings (Verify.prove iso path program (framesAlone fewer)))
+                  === [True]
+              _ -> property False
   where
+    isFloor f = case f of
+      NotCleared {} -> True
+      _ -> False
     isLeft f = case f of
       NotCleared {} -> True
       Excess {} -> True
@@ -199,17 +212,32 @@ cuts path =
 
 -- | The toolpath without the moves of the smaller cutter along the walls.
 withoutWalls :: Two -> Toolpath -> Toolpath
-withoutWalls two path = path {Toolpath.blocks = map emptied (Toolpath.blocks path)}
+withoutWalls two = withoutMoves (isAtWalls two)
+
+-- | The toolpath without the level moves of the smaller cutter that are not along the walls.
+withoutInner :: Two -> Toolpath -> Toolpath
+withoutInner two =
+  withoutMoves (\m -> uncurry (==) (Toolpath.heights m) && isCut m && not (isAtWalls two m))
+  where
+    isCut m = Toolpath.pace m /= Part.Rapid
+
+-- | Tells if a move follows the walls at the distance of the smaller cutter.
+isAtWalls :: Two -> Toolpath.Move -> Bool
+isAtWalls two m = all (\k -> off (Segment.at k (Toolpath.segment m)) < 0.01) [0.1, 0.5, 0.9]
+  where
+    off q =
+      let Mm d = minus (fromWalls q) (plus (cutter (small two)) (left (small two))) in abs d
+    fromWalls q = minimum (fmap (Distance.toPoint q) (walls (Generate.roomOf (small two))))
+
+-- | The toolpath without some moves of the smaller cutter.
+withoutMoves :: (Toolpath.Move -> Bool) -> Toolpath -> Toolpath
+withoutMoves isLeftOut path = path {Toolpath.blocks = map emptied (Toolpath.blocks path)}
   where
     emptied b = case b of
       Toolpath.Clearing {Toolpath.pocket = Located _ p, Toolpath.cleared = first :| others}
         | Just _ <- Part.roughing p ->
-          b {Toolpath.cleared = first :| filter (not . isThere) others}
+          b {Toolpath.cleared = first :| filter (not . isLeftOut) others}
       _ -> b
-    isThere m = all (\k -> off (Segment.at k (Toolpath.segment m)) < 0.01) [0.1, 0.5, 0.9]
-    off q =
-      let Mm d = minus (fromWalls q) (plus (cutter (small two)) (left (small two))) in abs d
-    fromWalls q = minimum (fmap (Distance.toPoint q) (walls (Generate.roomOf (small two))))
 
 machines :: [Machine]
 machines = [iso, Machines.named "lkp-01f", Machines.named "n55"]
