@@ -40,7 +40,7 @@ spec = do
         <> Keyword.softStatements
         <> concatMap
           (concatMap Text.words . Keyword.settingsOf)
-          ["mill", "pocket", "turn", "drill"]
+          ["mill", "pocket", "rest", "face", "turn", "drill"]
     grammar = "editors/tree-sitter-part/grammar.js"
     colours = "editors/tree-sitter-part/queries/highlights.scm"
 

@@ -44,7 +44,8 @@
 
 (defconst part-mode-settings
   '("depth" "lead" "corners" "climb" "conventional" "compensation" "start" "plunge" "peck"
-    "shortest" "islands" "rest")
+    "shortest" "islands" "rest" "angle"
+    "ramp" "helix" "spiral" "tabs" "tab")
   "The words that begin settings, and that may be names as well.")
 
 (defconst part-mode-functions
@@ -76,8 +77,10 @@
     ("\\_<\\(?:part\\|let\\|param\\|table\\|curve\\|piece\\|contour\\)[ \t]+\\(\\(?:\\sw\\|\\s_\\)+\\)"
      1 font-lock-variable-name-face)
     ;; These words begin a line; elsewhere they are names.
-    ("^[ \t]*\\(pocket\\|work\\|program\\|safe\\|stock\\|avoid\\|dwell\\)[ \t]+[(-]?\\(?:\\sw\\|\\s_\\)"
+    ("^[ \t]*\\(pocket\\|face\\|work\\|program\\|safe\\|stock\\|avoid\\|dwell\\)[ \t]+[(-]?\\(?:\\sw\\|\\s_\\)"
      1 font-lock-keyword-face)
+    ("^[ \t]*\\(rest[ \t]+of\\)[ \t]" 1 font-lock-keyword-face)
+    ("^[ \t]*pocket[ \t].*[ \t]\\(as\\)[ \t]" 1 font-lock-keyword-face)
     ("^[ \t]*\\(\\(?:optional[ \t]+\\)?stop\\)[ \t]*\\(?:--.*\\)?$" 1 font-lock-keyword-face)
     ("^[ \t]*\\(units\\)[ \t]+\\(mm\\|in\\)\\_>"
      (1 font-lock-keyword-face) (2 font-lock-type-face))
@@ -106,7 +109,7 @@
     ("\\_<joggle\\_>.*\\_<\\(to\\)\\_>.*\\_<\\(depth\\)\\_>.*\\_<\\(radius\\)\\_>"
      (1 font-lock-keyword-face) (2 font-lock-keyword-face) (3 font-lock-keyword-face))
     ("\\_<\\(?:drill\\)\\_>.*\\_<\\(depth\\)\\_>" 1 font-lock-keyword-face)
-    ("\\_<\\(?:depth\\|pocket\\)\\_>.*\\_<\\(step\\)\\_>" 1 font-lock-keyword-face)
+    ("\\_<\\(?:depth\\|pocket\\|rest\\|face\\)\\_>.*\\_<\\(step\\)\\_>" 1 font-lock-keyword-face)
     ("\\.\\..*\\_<\\(by\\)\\_>" 1 font-lock-keyword-face)
     (,(regexp-opt (append part-mode-statements part-mode-keywords) 'symbols) . font-lock-keyword-face)
     (,(regexp-opt part-mode-functions 'symbols) . font-lock-builtin-face)

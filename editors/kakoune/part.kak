@@ -50,10 +50,12 @@ provide-module part %§
     # The other words that cannot be names
     add-highlighter shared/part/code/ regex \b(for|if|in|then|else|and|or|not|open|closed|cw|ccw|meet|near|smooth|tangent|fillet|chamfer|slow|allowance|bevel|outside|inside|left|right|on|within|first|last|approach|retract)\b 1:keyword
     # Words that begin a line and are names elsewhere
-    add-highlighter shared/part/code/ regex ^\h*(pocket|work|program|safe|stock|avoid|dwell)\h+[(-]?\w 1:keyword
+    add-highlighter shared/part/code/ regex ^\h*(pocket|face|work|program|safe|stock|avoid|dwell)\h+[(-]?\w 1:keyword
+    add-highlighter shared/part/code/ regex ^\h*(rest\h+of)\h 1:keyword
+    add-highlighter shared/part/code/ regex ^\h*pocket\h[^\n]*\h(as)\h 1:keyword
     add-highlighter shared/part/code/ regex ^\h*((?:optional\h+)?stop)\h*$ 1:keyword
     add-highlighter shared/part/code/ regex ^\h*(units)\h+(mm|in)\b 1:keyword 2:type
-    add-highlighter shared/part/code/ regex (?:^|\{)\h*(depth|lead|corners|climb|conventional|compensation|start|plunge|peck|shortest|islands|rest)\b 1:keyword
+    add-highlighter shared/part/code/ regex (?:^|\{)\h*(depth|lead|corners|climb|conventional|compensation|start|plunge|peck|shortest|islands|rest|angle|ramp|helix|spiral|tabs|tab)\b 1:keyword
     # Words that follow others and are names elsewhere
     add-highlighter shared/part/code/ regex \blead\h+(?:in|out)\h+(line|arc)\b 1:keyword
     add-highlighter shared/part/code/ regex \blead\h+(out)\b 1:keyword
@@ -68,7 +70,7 @@ provide-module part %§
     add-highlighter shared/part/code/ regex \brest\h+(allowed)\b 1:keyword
     add-highlighter shared/part/code/ regex \bdrill\h+(at)\b 1:keyword
     add-highlighter shared/part/code/ regex \bdrill\b[^\n]*\b(depth)\b 1:keyword
-    add-highlighter shared/part/code/ regex \b(?:depth|pocket)\b[^\n]*\b(step)\b 1:keyword
+    add-highlighter shared/part/code/ regex \b(?:depth|pocket|rest|face)\b[^\n]*\b(step)\b 1:keyword
     add-highlighter shared/part/code/ regex \.\.[^\n]*\b(by)\b 1:keyword
     add-highlighter shared/part/code/ regex \b(cipher|joggle)\b 1:keyword
     add-highlighter shared/part/code/ regex \bjoggle\b[^\n]*\b(to)\b[^\n]*\b(depth)\b[^\n]*\b(radius)\b 1:keyword 2:keyword 3:keyword

@@ -63,7 +63,7 @@ module.exports = grammar({
       $.part, $.units, $.machine, $.import, $.tool, $.feed, $.tolerance, $.clearance, $.from,
       $.work, $.program_number, $.safe, $.stock, $.avoid,
       $.let, $.param, $.table, $.curve, $.piece, $.contour, $.assert,
-      $.mill, $.turn, $.pocket, $.drill, $.rapid, $.move,
+      $.mill, $.turn, $.pocket, $.rest_of, $.face, $.drill, $.rapid, $.move,
       $.change, $.spindle, $.coolant, $.aux, $.program_stop, $.optional_stop, $.dwell,
       $.for, $.if, $.with,
     ),
@@ -148,6 +148,19 @@ module.exports = grammar({
     turn: $ => seq('turn', field('contour', $._expression), $._side, $.settings),
     pocket: $ => seq(
       'pocket',
+      field('contour', $._expression),
+      'step', $._expression,
+      optional(seq('as', field('name', $.name))),
+      $.settings,
+    ),
+    rest_of: $ => seq(
+      'rest', 'of',
+      field('clearing', $._expression),
+      'step', $._expression,
+      $.settings,
+    ),
+    face: $ => seq(
+      'face',
       field('contour', $._expression),
       'step', $._expression,
       $.settings,
@@ -261,8 +274,8 @@ module.exports = grammar({
     settings: $ => seq('{', repeat($._setting), '}'),
     _setting: $ => choice(
       $.approach, $.retract, $.depth, $.lead, $.allowance, $.corners, $.climb, $.conventional,
-      $.compensation, $.start, $.plunge, $.peck, $.shortest, $.islands,
-      $.rest,
+      $.compensation, $.start, $.plunge, $.ramp, $.helix, $.spiral, $.tabs, $.peck,
+      $.shortest, $.islands, $.rest, $.angle,
     ),
     approach: $ => seq('approach', $._stops),
     retract: $ => seq('retract', $._stops),
@@ -276,9 +289,20 @@ module.exports = grammar({
     compensation: $ => seq('compensation', choice('compiler', 'controller')),
     start: $ => seq('start', 'near', $._expression),
     plunge: $ => seq('plunge', $._expression),
+    ramp: $ => seq('ramp', $._expression),
+    helix: $ => seq('helix', 'pitch', $._expression, optional(seq('diameter', $._expression))),
+    spiral: _ => 'spiral',
+    tabs: $ => seq(
+      choice(
+        seq('tabs', $._expression),
+        seq('tab', 'at', $._expression, repeat(seq(',', $._expression))),
+      ),
+      'width', $._expression, 'height', $._expression, optional(seq('angle', $._expression)),
+    ),
     peck: $ => seq('peck', $._expression),
     islands: $ => seq('islands', list($._expression)),
     rest: $ => seq('rest', 'allowed'),
+    angle: $ => seq('angle', $._expression),
 
     _stops: $ => list($.stop),
     stop: $ => seq(

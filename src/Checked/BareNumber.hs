@@ -198,6 +198,7 @@ typedExpressions s = case value s of
   Turn e _ settings -> (Nothing, e) : concatMap typedSetting settings
   Pocket e f _ settings -> (Nothing, e) : (Just Type.len, f) : concatMap typedSetting settings
   RestOf e f settings -> (Nothing, e) : (Just Type.len, f) : concatMap typedSetting settings
+  Face e f settings -> (Nothing, e) : (Just Type.len, f) : concatMap typedSetting settings
   Contour {} -> concatMap typedItem (SyntaxWalk.itemsOf s)
   LetValue _ _ -> []
   LetFunction {} -> []
@@ -240,6 +241,7 @@ typedSetting s = case value s of
   Retract _ -> plain
   StartNear _ -> plain
   Islands _ -> plain
+  Angle e -> [(Just Type.angle, e)]
   _ -> [(Just Type.len, e) | e <- SyntaxWalk.ofSetting s]
   where
     plain = [(Nothing, e) | e <- SyntaxWalk.ofSetting s]

@@ -185,11 +185,9 @@ statement env (Located at s) = case s of
     one (machining env Checked.Turn "turn" (expect env Type.Contour e) side options)
   Surface.Pocket e stepover own options -> done (pocketing env e stepover own options)
   Surface.RestOf e stepover options ->
-    one $
-      (\e' stepover' o sol -> Checked.RestOf (e' sol) (stepover' sol) (o sol))
-        <$> expect env Type.Clearing e
-          <*> expect env Type.len stepover
-          <*> Settings.check env "rest" options
+    one (clearing env Checked.RestOf "rest" (expect env Type.Clearing e) stepover options)
+  Surface.Face e stepover options ->
+    one (clearing env Checked.Face "face" (bounded env e) stepover options)
   Surface.Drill points depth options ->
     one $ do
       (columns, points') <- pointOrPoints env points
@@ -256,11 +254,24 @@ pocketing env e stepover own options = case own of
   Nothing -> Inference.separately inside
   Just name -> defining name (const (Value (region name) Type.Clearing)) inside
   where
-    inside =
-      (\e' stepover' o sol -> Checked.Pocket (e' sol) (stepover' sol) own (o sol))
-        <$> outlined env e
-          <*> expect env Type.len stepover
-          <*> Settings.check env "pocket" options
+    inside = clearing env make "pocket" (outlined env e) stepover options
+    make e' stepover' = Checked.Pocket e' stepover' own
+
+-- | Checks a statement that clears something with a stepover. @word@ is its first word, and @make@
+-- makes it from what it clears, the stepover and the settings.
+clearing ::
+  TypingEnvironment ->
+  (Checked.Expr -> Checked.Expr -> Checked.Settings -> a) ->
+  Text ->
+  Infer (Deferred Checked.Expr) ->
+  Surface.Expr ->
+  [Surface.Setting] ->
+  Infer (Deferred a)
+clearing env make word cleared stepover options =
+  (\e' stepover' o sol -> make (e' sol) (stepover' sol) (o sol))
+    <$> cleared
+      <*> expect env Type.len stepover
+      <*> Settings.check env word options
 
 -- Definitions
 

@@ -102,6 +102,7 @@ machiningKeyword s = case s of
   Surface.Mill {} -> "mill"
   Surface.Pocket {} -> "pocket"
   Surface.RestOf {} -> "rest"
+  Surface.Face {} -> "face"
   Surface.Turn {} -> "turn"
   Surface.Drill {} -> "drill"
   Surface.Travel Surface.RapidMotion _ -> "rapid"
@@ -149,6 +150,7 @@ requirement s = case s of
   Surface.Mill _ _ options -> none {needed = milling <> forDepth options}
   Surface.Pocket _ _ _ options -> none {keywordLength = 6, needed = milling <> forDepth options}
   Surface.RestOf {} -> none {needed = ClearanceSetting : milling}
+  Surface.Face {} -> none {needed = ClearanceSetting : milling}
   Surface.Turn {} -> none {needed = milling}
   Surface.Drill {} ->
     none {keywordLength = 5, needed = [ToolSetting, FeedSetting, FromSetting, ClearanceSetting]}

@@ -95,6 +95,7 @@ setting env statement (Located at s) = do
       (\es' sol o -> o {islands = map ($ sol) es'})
         <$> mapM (contourOrContours env) (NonEmpty.toList es)
     Surface.RestAllowed -> pure (\_ o -> o {restAllowed = Just at})
+    Surface.Angle e -> (\e' sol o -> o {passAngle = Just (e' sol)}) <$> expect env Type.angle e
     Surface.BrokenSetting -> (\_ o -> o) <$ Inference.taint
   where
     len = expect env Type.len
@@ -154,7 +155,8 @@ unset =
       peck = Nothing,
       visits = AsListed,
       islands = [],
-      restAllowed = Nothing
+      restAllowed = Nothing,
+      passAngle = Nothing
     }
 
 -- | The words with which a setting begins. The text is empty for a setting that the parser has
@@ -182,6 +184,7 @@ keyword s = case s of
   Surface.ShortestWay -> "shortest"
   Surface.Islands _ -> "islands"
   Surface.RestAllowed -> "rest"
+  Surface.Angle _ -> "angle"
   Surface.BrokenSetting -> ""
 
 -- | The name of a setting in reports. Two settings of a block must not have the same name, unless

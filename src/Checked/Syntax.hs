@@ -152,6 +152,8 @@ data Statement_
     Pocket Expr Expr (Maybe (Located Name)) Settings
   | -- | the operation that left the material, the stepover in mm, and the settings
     RestOf Expr Expr Settings
+  | -- | the region to clear, the stepover in mm, and the settings
+    Face Expr Expr Settings
   | Turn Expr (Located Side) Settings
   | -- | the point or the list of points, the depth in mm, and the settings
     Drill Expr Expr Settings
@@ -300,7 +302,9 @@ data Settings = Settings
     -- | the islands of a pocket: expressions of contours and of lists of contours
     islands :: [Expr],
     -- | the region of the setting that allows rest material; without it, rest material is a mistake
-    restAllowed :: Maybe Region
+    restAllowed :: Maybe Region,
+    -- | the direction of parallel passes
+    passAngle :: Maybe Expr
   }
   deriving stock (Eq, Show)
 

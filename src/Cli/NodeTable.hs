@@ -38,7 +38,7 @@ import Geometry.Segment qualified as Segment
 import Geometry.Vec (Point)
 import Geometry.Vec qualified as Vec
 import Machine.Machine (Machine)
-import Part.Part (Drilling, Milling, Part)
+import Part.Part (Drilling, Milling, Part, Pocketing)
 import Part.Part qualified as Part
 import Pulse.Controller qualified as Controller
 import Pulse.ControllerRun (StopReason (..))
@@ -97,10 +97,10 @@ cutsOf path =
   where
     blocks = Toolpath.blocks path
 
--- | The passes that clear pockets: the milling of the pocket's wall, the pass, its moves.
-clearingsOf :: Toolpath -> [(Located Milling, Pass, [Move])]
+-- | The passes that clear pockets and surfaces: the operation, the pass, its moves.
+clearingsOf :: Toolpath -> [(Located Pocketing, Pass, [Move])]
 clearingsOf path =
-  [ (Part.wall <$> pocket, pass, NonEmpty.toList cleared)
+  [ (pocket, pass, NonEmpty.toList cleared)
     | Clearing {pocket, pass, cleared} <- Toolpath.blocks path
   ]
 
@@ -162,16 +162,21 @@ stepTable unit job pass cut divided =
           StepTable.divided = found
         }
 
--- | The count of moves, the length and the time of one pass in a pocket.
-pocketText :: LengthUnit -> Maybe Machine -> Located Milling -> Pass -> [Move] -> Text
-pocketText unit machine wall pass cleared =
-  "Pocket "
-    <> nameOf wall
+-- | The count of moves, the length and the time of one pass in a pocket or over a surface.
+pocketText :: LengthUnit -> Maybe Machine -> Located Pocketing -> Pass -> [Move] -> Text
+pocketText unit machine pocket pass cleared =
+  kind
+    <> nameOf (Part.wall <$> pocket)
     <> passWord unit pass
     <> ": cleared in "
     <> Decimal.whole (length cleared)
     <> " moves\n"
     <> lengthAndTime unit machine cleared
+  where
+    kind = case Part.extent (value pocket) of
+      Part.WholePocket -> "Pocket "
+      Part.RestOfPocket _ -> "Rest of pocket "
+      Part.Surface _ -> "Surface "
 
 nameOf :: Located Milling -> Text
 nameOf job = let Name n = value (Part.contourName (Part.contour (value job))) in n

@@ -192,11 +192,14 @@ beginning = Segment.start . Part.segment . NonEmpty.head . Part.elements
 millingOf :: Operation -> [Milling]
 millingOf operation = case operation of
   Mill job -> [value job]
-  Pocket (Located _ p) ->
-    Part.wall p :
-      [ (Part.wall p) {contour = i, Part.side = Part.Outside <$ Part.side (Part.wall p)}
-        | i <- Part.islands p
-      ]
+  Pocket (Located _ p)
+    -- The cutter runs over the contours of a surface.
+    | isJust (Part.surface p) -> []
+    | otherwise ->
+      Part.wall p :
+        [ (Part.wall p) {contour = i, Part.side = Part.Outside <$ Part.side (Part.wall p)}
+          | i <- Part.islands p
+        ]
   Drill _ -> []
   Travel _ -> []
   Command _ -> []

@@ -35,7 +35,6 @@ import Data.Text (Text)
 import Geometry.Index.BoundingBox (BoundingBox (..))
 import Geometry.Index.BoundingBox qualified as BoundingBox
 import Geometry.Segment (Segment (..))
-import Geometry.Segment qualified as Segment
 import Geometry.Vec (Point)
 import Geometry.Vec qualified as Vec
 
@@ -203,13 +202,7 @@ onPaper page (Mm l) = factor (scale page) * l
 -- | Smallest bounding box of a segment. It contains the whole arc, also where the arc bulges beyond
 -- the box of its two ends.
 extent :: Segment -> BoundingBox
-extent s = case s of
-  Straight a b -> BoundingBox.ofPoints a [b]
-  Arc {start, end, centre} ->
-    let Mm r = Segment.radius centre start
-        quarters =
-          [Vec.shift v centre | v <- [Vec.vec r 0, Vec.vec 0 r, Vec.vec (-r) 0, Vec.vec 0 (-r)]]
-     in BoundingBox.ofPoints start (end : filter (Segment.hasFootOf s) quarters)
+extent = BoundingBox.around
 
 -- | True if the area contains point @p@ of the paper; its edges belong to it.
 holds :: Area -> Point -> Bool

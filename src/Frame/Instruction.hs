@@ -17,7 +17,7 @@ import Base.Region (Located (..), Region)
 import Data.List (mapAccumL, zipWith4)
 import Data.List.NonEmpty (NonEmpty (..))
 import Data.List.NonEmpty qualified as NonEmpty
-import Data.Maybe (fromMaybe)
+import Data.Maybe (fromMaybe, isJust)
 import Frame.ChordError (ChordTolerance (..))
 import Frame.ChordError qualified as ChordError
 import Frame.Command (Translation)
@@ -110,7 +110,7 @@ wallsOf = snd . mapAccumL next (-1, Passage.walls [])
     next (n, walls) b = case b of
       Toolpath.Cutting {Toolpath.job, Toolpath.pass} -> at pass [Part.contour (value job)]
       Toolpath.Clearing {Toolpath.pocket = Located _ p, Toolpath.pass} ->
-        at pass (Part.contour (Part.wall p) : Part.islands p)
+        at pass (if isJust (Part.surface p) then [] else Part.contour (Part.wall p) : Part.islands p)
       _ -> ((n, walls), walls)
       where
         at pass contours

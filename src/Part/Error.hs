@@ -119,6 +119,7 @@ data CutterStatement
   | TurnStatement
   | PocketStatement
   | RestStatement
+  | FaceStatement
   | DrillStatement
   deriving stock (Eq, Show)
 
@@ -382,6 +383,7 @@ wrongCutterReport (Region begin _) statement kind =
       MillStatement -> ("mill", "a mill", "change 2 mill(diameter 5 mm)")
       TurnStatement -> ("turn", "a turning tool", "change 2 turn(nose 0.4 mm)")
       PocketStatement -> ("pocket", "a mill", "change 2 mill(diameter 5 mm)")
+      FaceStatement -> ("face", "a mill", "change 2 mill(diameter 50 mm)")
       RestStatement -> ("rest", "a mill", "change 2 mill(diameter 5 mm)")
       DrillStatement -> ("drill", "a drill or a mill", "change 2 drill(diameter 5 mm)")
     tool = case kind of

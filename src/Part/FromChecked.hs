@@ -41,6 +41,7 @@ import Part.Evaluation (Eval)
 import Part.Evaluation qualified as Evaluation
 import Part.Expression (Environment (..), Turn)
 import Part.Expression qualified as Expression
+import Part.FaceMilling qualified as FaceMilling
 import Part.Machining (Context (..))
 import Part.Machining qualified as Machining
 import Part.Measure (feedOf, lengthOf, positive, secondsOf, whole)
@@ -219,6 +220,10 @@ step state (Located at s) = case s of
       maybe id (namedPockets at (fromMaybe [] found)) own (eachPerformed Pocket found)
   Checked.RestOf e stepover settings ->
     keep (Machining.restOf now at e stepover settings) (eachPerformed Pocket)
+  Checked.Face e stepover settings ->
+    keep
+      (FaceMilling.facing now (highest . value <$> stock' state) at e stepover settings)
+      (eachPerformed Pocket)
   Checked.Turn e side settings ->
     keep (Machining.milling now Turned at e side settings) (eachPerformed Mill)
   Checked.Drill points depth settings ->

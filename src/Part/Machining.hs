@@ -6,6 +6,8 @@
 module Part.Machining
   ( Context (..),
     milling,
+    millingOf,
+    checkCutter,
     pocketing,
     restOf,
     drilling,
@@ -341,7 +343,7 @@ pocketIn context at step settings outline islands = do
   let diameter = times 2 . cutterRadius <$> cutter context
       tooWide = [StepTooWide (region step) stepover d | Just d <- [diameter], stepover > d]
       contours' = map PocketCheck.contour islands
-      pocket w = Pocketing {wall = w, islands = contours', stepover, roughing = Nothing}
+      pocket w = Pocketing {wall = w, islands = contours', stepover, extent = WholePocket}
   case PocketCheck.misfits diameter outline islands <> tooWide of
     [] -> pure (pocket <$> wall)
     found -> Evaluation.mistakes [Error (InPocket m) [] [] | m <- found]
@@ -407,8 +409,8 @@ restIn context at e settings stepover cleared rough = do
         rough
           { wall = own {levels = heightsOf own},
             stepover,
-            roughing =
-              Just
+            extent =
+              RestOfPocket
                 Roughing
                   { roughedAt = clearedAt cleared,
                     roughRadius = radius (wall rough),
@@ -548,6 +550,7 @@ checkCutter context at statement = case cutter context of
       TurnStatement -> cutterKind == TurningCutter
       PocketStatement -> cutterKind == MillingCutter
       RestStatement -> cutterKind == MillingCutter
+      FaceStatement -> cutterKind == MillingCutter
       DrillStatement -> cutterKind `elem` [DrillingCutter, MillingCutter]
 
 -- | True for the kinds of cutters that mill contours with their flank.

@@ -23,7 +23,11 @@ module Part.Part
     Tabs (..),
     TabPlaces (..),
     Pocketing (..),
+    ClearedExtent (..),
     Roughing (..),
+    Facing (..),
+    roughing,
+    surface,
     Work (..),
     Accuracy (..),
     deviationLimits,
@@ -74,7 +78,7 @@ import Geometry.Polyarc (Ends (..))
 import Geometry.Polyarc qualified as Polyarc
 import Geometry.Segment (Segment)
 import Geometry.Segment qualified as Segment
-import Geometry.Vec (Point)
+import Geometry.Vec (Point, Vec)
 import Part.Curve (Fitting, PartCurve)
 import Part.CutFeed (CutFeed, SpindleRate)
 import Part.Link (Link)
@@ -344,9 +348,38 @@ data Pocketing = Pocketing
     islands :: [Contour],
     -- | the distance between neighbouring passes, above 0 and at most the diameter of the cutter
     stepover :: Mm,
-    -- | the operation that has cleared the pocket before, if this one clears only the material that
-    -- it left
-    roughing :: Maybe Roughing
+    extent :: ClearedExtent
+  }
+  deriving stock (Eq, Show)
+
+-- | The extent of what an operation clears between its contours.
+data ClearedExtent
+  = -- | all that the cutter reaches without cutting the contours
+    WholePocket
+  | -- | of that, what an operation with a larger cutter has left
+    RestOfPocket Roughing
+  | -- | the surface of the region: the cutter also runs over its contours
+    Surface Facing
+  deriving stock (Eq, Show)
+
+-- | The operation whose rest a clearing removes.
+roughing :: Pocketing -> Maybe Roughing
+roughing p = case extent p of
+  RestOfPocket r -> Just r
+  WholePocket -> Nothing
+  Surface _ -> Nothing
+
+-- | The facing that a clearing is.
+surface :: Pocketing -> Maybe Facing
+surface p = case extent p of
+  Surface f -> Just f
+  WholePocket -> Nothing
+  RestOfPocket _ -> Nothing
+
+-- | Parallel passes over a region.
+newtype Facing = Facing
+  { -- | a vector in the direction of the passes
+    passDirection :: Vec
   }
   deriving stock (Eq, Show)
 

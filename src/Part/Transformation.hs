@@ -10,6 +10,7 @@ import Base.Region (Located (..))
 import Data.List.NonEmpty qualified as NonEmpty
 import Geometry.Transformation (Transformation)
 import Geometry.Transformation qualified as Transformation
+import Geometry.Vec qualified as Vec
 import Part.Part
 
 -- | The image of a solid under the transformation @s@, which does not change its heights.
@@ -30,7 +31,15 @@ operation :: Transformation -> Operation -> Operation
 operation s o = case o of
   Mill (Located at m) -> Mill (Located at (milling m))
   Pocket (Located at p) ->
-    Pocket (Located at p {wall = milling (wall p), islands = map (image s) (islands p)})
+    Pocket
+      ( Located
+          at
+          p
+            { wall = milling (wall p),
+              islands = map (image s) (islands p),
+              extent = extentOf (extent p)
+            }
+      )
   Drill (Located at d) ->
     Drill (Located at d {holes = fmap placed (holes d)})
   Travel stops -> Travel (NonEmpty.map stop stops)
@@ -43,6 +52,12 @@ operation s o = case o of
           approach = map stop (approach m),
           retract = map stop (retract m)
         }
+    extentOf cleared = case cleared of
+      Surface (Facing direction) -> Surface (Facing (moved direction))
+      WholePocket -> cleared
+      RestOfPocket _ -> cleared
+    moved v = Vec.to (movedPoint (Vec.point 0 0)) (movedPoint (Vec.shift v (Vec.point 0 0)))
+    movedPoint = Transformation.point s
     stop p = p {place = fmap (Transformation.point s) (place p)}
     placed h = h {holeCentre = fmap (Transformation.point s) (holeCentre h)}
     mirrored side'

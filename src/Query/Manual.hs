@@ -187,6 +187,17 @@ machining =
         ("step", "Gives the stepover of a pocket, or the largest stepdown of a depth.")
       ]
     <> under
+      "language.md#rest-machining"
+      [ ("rest of", "Clears what a larger cutter has left in a pocket."),
+        ("of", "Comes before the name of the pocket whose rest is cleared."),
+        ("as", "Gives the clearing of a pocket a name.")
+      ]
+    <> under
+      "language.md#facing"
+      [ ("face", "Clears the surface of a region with parallel passes."),
+        ("angle", "Gives the direction of the passes over a surface.")
+      ]
+    <> under
       "language.md#drilling"
       [ ("drill", "Drills holes; in a tool, it is a drill."),
         ("at", "Comes before the points of the holes, or before the point of a tool change.")
@@ -261,7 +272,9 @@ otherSettings =
     [("compensation", "Says if the compiler or the control computes the offset.")]
     <> under
       "language.md#rest-material"
-      [ ("rest", "Permits material that the cutter does not reach."),
+      [ ( "rest",
+          "Permits material that the cutter does not reach; before of, clears what is left."
+        ),
         ("rest allowed", "Permits material that the cutter does not reach.")
       ]
     <> under

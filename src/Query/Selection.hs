@@ -50,6 +50,7 @@ regionsAround at s
       Mill _ _ ss -> [region x | x <- ss, contains (region x)]
       Pocket _ _ _ ss -> [region x | x <- ss, contains (region x)]
       RestOf _ _ ss -> [region x | x <- ss, contains (region x)]
+      Face _ _ ss -> [region x | x <- ss, contains (region x)]
       Turn _ _ ss -> [region x | x <- ss, contains (region x)]
       Drill _ _ ss -> [region x | x <- ss, contains (region x)]
       _ -> []

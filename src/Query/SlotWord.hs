@@ -73,6 +73,7 @@ entries keyword = case keyword of
   "turn" -> onContour (words' sides)
   "pocket" ->
     onContour (words' ["step"]) <> [("step", (value Type.len, words' ["as"])), ("as", ([], []))]
+  "face" -> own (value Contour) (words' ["step"]) <> [("step", (value Type.len, []))]
   "rest" ->
     own (words' ["of"]) []
       <> [("of", (value Clearing, words' ["step"])), ("step", (value Type.len, []))]
@@ -170,6 +171,7 @@ setting w = case w of
   "peck" -> Just (value Type.len, [])
   "islands" -> Just ([AtValue [Contour, ListOf Contour] False], [])
   "rest" -> Just (words' ["allowed"], [])
+  "angle" -> Just (value Type.angle, [])
   _ -> Nothing
 
 -- | As 'statement', for the items of a contour. The empty word is the beginning of an item.

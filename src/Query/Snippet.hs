@@ -38,6 +38,7 @@ statements =
     ("contour", "contour ${1:name} closed {\n  $0\n}"),
     ("mill", "mill ${1:contour} ${2:outside} {\n  approach (${3:0}, ${4:0})\n  $0\n}"),
     ("pocket", "pocket ${1:contour} step ${2:3 mm} {\n  approach (${3:0}, ${4:0})\n  $0\n}"),
+    ("face", "face ${1:blank} step ${2:20 mm} {\n  depth ${3:0 mm}\n  $0\n}"),
     ("rest", "rest of ${1:rough} step ${2:1 mm} {\n  depth ${3:4 mm}\n  $0\n}"),
     ("drill", "drill at ${1:points} depth ${2:5 mm}"),
     ("turn", "turn ${1:contour} ${2:outside} {\n  approach (${3:0}, ${4:0})\n  $0\n}"),
@@ -80,6 +81,7 @@ setting words' = case words' of
   "peck" -> "peck ${1:3 mm}"
   "islands" -> "islands ${1:contour}"
   "rest" -> "rest allowed"
+  "angle" -> "angle ${1:45 deg}"
   _ -> words'
 
 -- | The cutters, each by its keyword, with its text.

@@ -92,7 +92,7 @@ moved regionMap s = do
 
 -- | The symbol of a statement; 'Nothing' if it has none. A definition is shown by its name. Any
 -- other statement is shown by the beginning of its text. For @mill@ and @turn@ this text ends with
--- the side, for @pocket@ and @rest of@ with the stepover, for @drill@ with the depth.
+-- the side, for @pocket@, @rest of@ and @face@ with the stepover, for @drill@ with the depth.
 symbol :: Source -> Statement -> Maybe DocumentSymbol
 symbol source (Located whole s) = case s of
   Part name title -> definition Part' name (maybe "" value title)
@@ -106,6 +106,7 @@ symbol source (Located whole s) = case s of
   Mill contour side _ -> machining (region side) (region contour)
   Pocket contour stepover own _ -> machining (region stepover) (maybe (region contour) region own)
   RestOf clearing stepover _ -> machining (region stepover) (region clearing)
+  Face contour stepover _ -> machining (region stepover) (region contour)
   Turn contour side _ -> machining (region side) (region contour)
   Drill holes depth _ -> machining (region depth) (region holes)
   Travel _ _ -> machining whole whole

@@ -34,7 +34,7 @@ import Surface.Keyword qualified as Keyword
 import Surface.Syntax
 import Surface.Token (Token (..), Token_ (..))
 import Surface.Token qualified as Token
-import Surface.TokenGrammar (cutterSide, lineDone, machine, misfit, sense, text')
+import Surface.TokenGrammar
 import Text.Megaparsec ((<?>), (<|>))
 import Text.Megaparsec qualified as Parsec
 import Prelude hiding (span)
@@ -92,12 +92,9 @@ statementForms =
     ("piece", piece),
     ("assert", Assert <$> expr <*> Parsec.optional (keyword "within" *> expr)),
     ("mill", machining "mill" Mill),
-    ( "pocket",
-      Pocket <$> expr <* keyword "step" <*> expr
-        <*> Parsec.optional (onThisLine (keyword "as" *> name))
-        <*> settings "pocket"
-    ),
-    ("rest", RestOf <$> (keyword "of" *> expr) <* keyword "step" <*> expr <*> settings "rest"),
+    ("pocket", Pocket <$> expr <*> stepover <*> ownName <*> settings "pocket"),
+    ("rest", RestOf <$> (keyword "of" *> expr) <*> stepover <*> settings "rest"),
+    ("face", Face <$> expr <*> stepover <*> settings "face"),
     ("turn", machining "turn" Turn),
     ( "drill",
       keyword "at"
@@ -131,6 +128,8 @@ statementForms =
     ("with", With <$> expr <*> statementBlock (BlockOf "with") statement)
   ]
   where
+    stepover = keyword "step" *> expr
+    ownName = Parsec.optional (onThisLine (keyword "as" *> name))
     otherwise' =
       keyword "else"
         *> ((: []) <$> located elseIf <|> statementBlock (BlockOf "else") statement)
@@ -398,6 +397,7 @@ settingForms =
     ("tab", keyword "at" *> (Tabs . TabsAt <$> (expr `sepBy1` ",")) >>= tabSizes),
     ("peck", Peck <$> onSameLine "a depth" expr),
     ("shortest", pure ShortestWay),
+    ("angle", Angle <$> onSameLine "an angle" expr),
     ("islands", Islands <$> (expr `sepBy1` ",")),
     ("rest", RestAllowed <$ keyword "allowed")
   ]
@@ -599,14 +599,6 @@ argument = do
     isWord' t = case shape t of
       Word _ -> True
       _ -> False
-
--- | Demands that the next token is an opening parenthesis without a space before it. A name before
--- such a parenthesis is the name of a function. The token is not consumed.
-touching :: Parser ()
-touching = Parsec.hidden (void (Parsec.lookAhead (Parsec.satisfy isTouchingParenthesis)))
-
-isTouchingParenthesis :: Token -> Bool
-isTouchingParenthesis t = attached t && shape t == Symbol "("
 
 -- | An expression in parentheses, a point or a vector @(a, b)@, or a point with a height
 -- @(a, b, c)@.

@@ -31,7 +31,7 @@ statements =
 -- @contour pocket closed@. Some of them are whole statements, some need a word after them.
 softStatements :: [Text]
 softStatements =
-  ["pocket", "rest", "units", "work", "program", "safe", "stock", "avoid", "stop", "optional", "dwell"]
+  ["pocket", "rest", "face", "units", "work", "program", "safe", "stock", "avoid", "stop", "optional", "dwell"]
 
 -- | The keywords that begin a repetition or a choice, either of statements or of items of a
 -- contour.
@@ -45,7 +45,7 @@ beginsItem word = word `elem` (["for", "if", "cw", "ccw"] <> settings)
     settings =
       ["approach", "retract", "depth", "lead", "allowance", "corners", "climb", "conventional"]
         <> ["compensation", "start", "plunge", "peck", "shortest", "islands", "rest"]
-        <> ["ramp", "helix", "spiral", "tabs", "tab"]
+        <> ["angle", "ramp", "helix", "spiral", "tabs", "tab"]
 
 -- | The settings that are allowed in the block of a statement, each by the one or two words with
 -- which it begins. @statement@ is the keyword of the statement.
@@ -58,6 +58,8 @@ settingsOf statement = case statement of
       <> ["depth", "plunge", "ramp", "helix", "spiral", "tabs", "tab at", "compensation", "rest"]
   "pocket" -> "islands" : clearing <> ["ramp", "helix"]
   "rest" -> clearing
+  "face" ->
+    ["approach", "retract", "climb", "conventional", "angle", "depth", "plunge"]
   "turn" -> linkingMoves <> passes
   _ -> ["peck", "plunge", "shortest"]
   where

@@ -137,6 +137,8 @@ statement comments indent (Located _ s) = case s of
     clearing (spaced ([Text "pocket", value e, Text "step", value step] <> namedAs own)) settings
   RestOf e step settings ->
     clearing (spaced [Text "rest of", value e, Text "step", value step]) settings
+  Face e step settings ->
+    clearing (spaced [Text "face", value e, Text "step", value step]) settings
   Turn e side settings -> machining "turn" e side settings
   Drill at depth settings ->
     let before = spaced [Text "drill at", value at, Text "depth", value depth]
@@ -441,6 +443,7 @@ setting comments indent (Located _ s) = case s of
     worded "tab at" (spaced ([Series (pieces ps)] <> tabSizes w h a))
   Peck e -> worded "peck" (value e)
   ShortestWay -> whole indent (Text "shortest")
+  Angle e -> worded "angle" (value e)
   Islands es -> worded "islands" (Series (pieces es))
   RestAllowed -> worded "rest" (Text "allowed")
   BrokenSetting -> []

@@ -77,7 +77,7 @@ lineTokens around
     (same, []) -> same
 
 settingBlocks :: [Text]
-settingBlocks = ["mill", "pocket", "rest", "turn", "drill"]
+settingBlocks = ["mill", "pocket", "rest", "face", "turn", "drill"]
 
 -- | The keyword of the statement around a token; empty if there is none.
 blockWord :: TokenContext -> Text
@@ -136,6 +136,7 @@ statementForms =
     ("mill", "mill edge outside { depth 10 step 5 }"),
     ("pocket", "pocket recess step 5 { depth 4 }"),
     ("rest", "rest of rough step 2 { depth 4 }"),
+    ("face", "face blank step 20 { depth 0 step 1 }"),
     ("turn", "turn profile outside { allowance 1, 0 }"),
     ("drill", "drill at (10, 20) depth 15 { peck 5 }"),
     ("rapid", "rapid (0, 0)"),
@@ -174,5 +175,6 @@ settingForms =
     ("peck", "peck 4"),
     ("shortest", "shortest"),
     ("islands", "islands boss, rib"),
-    ("rest", "rest allowed")
+    ("rest", "rest allowed"),
+    ("angle", "angle 45")
   ]

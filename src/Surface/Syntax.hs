@@ -135,6 +135,8 @@ data Statement_
     Pocket Expr Expr (Maybe (Located Name)) [Setting]
   | -- | @rest of rough step 2 mm { … }@: the operation that left the material, the stepover
     RestOf Expr Expr [Setting]
+  | -- | @face blank step 30 mm { … }@: the region to clear, the stepover
+    Face Expr Expr [Setting]
   | -- | @turn profile outside { … }@
     Turn Expr (Located Side) [Setting]
   | -- | @drill at holes depth 12 mm { … }@
@@ -428,6 +430,8 @@ data Setting_
     Peck Expr
   | -- | @shortest@: the holes in the order of a short way
     ShortestWay
+  | -- | @angle 45@: the direction of the passes
+    Angle Expr
   | -- | @islands a, b@: contours in a pocket that are left uncut
     Islands (NonEmpty Expr)
   | -- | @rest allowed@: rest material is accepted

@@ -107,6 +107,7 @@ ofStatement (Located _ s) = case s of
   Mill e _ settings -> e : concatMap ofSetting settings
   Pocket e stepover _ settings -> e : stepover : concatMap ofSetting settings
   RestOf e stepover settings -> e : stepover : concatMap ofSetting settings
+  Face e stepover settings -> e : stepover : concatMap ofSetting settings
   Turn e _ settings -> e : concatMap ofSetting settings
   Drill e deep settings -> e : deep : concatMap ofSetting settings
   Travel _ stops -> concatMap ofStop (NonEmpty.toList stops)
@@ -263,6 +264,7 @@ ofSetting (Located _ s) = case s of
   Tabs (TabsAt ps) w h a -> toList ps <> [w, h] <> toList a
   Peck e -> [e]
   ShortestWay -> []
+  Angle e -> [e]
   Islands es -> NonEmpty.toList es
   RestAllowed -> []
   BrokenSetting -> []

@@ -9,10 +9,13 @@ module Surface.TokenGrammar
     cutterSide,
     misfit,
     lineDone,
+    touching,
+    isTouchingParenthesis,
   )
 where
 
 import Base.Region (Located)
+import Control.Monad (void)
 import Data.Text (Text)
 import Surface.Combinator
 import Surface.Syntax
@@ -67,3 +70,12 @@ lineDone problem = do
   case next of
     t : _ | not (newLine t) && shape t /= Symbol "}" -> misfit problem
     _ -> pure ()
+
+-- | Demands that the next token is an opening parenthesis without a space before it. A name before
+-- such a parenthesis is the name of a function. The token is not consumed.
+touching :: Parser ()
+touching = Parsec.hidden (void (Parsec.lookAhead (Parsec.satisfy isTouchingParenthesis)))
+
+-- | Tells if a token is an opening parenthesis without a space before it.
+isTouchingParenthesis :: Token -> Bool
+isTouchingParenthesis t = attached t && shape t == Symbol "("

@@ -59,6 +59,7 @@ statement s = case s of
   Pocket e step own settings ->
     Pocket (expr e) (expr step) (fmap here own) (map (unlocated setting) settings)
   RestOf e step settings -> RestOf (expr e) (expr step) (map (unlocated setting) settings)
+  Face e step settings -> Face (expr e) (expr step) (map (unlocated setting) settings)
   Turn e side settings -> Turn (expr e) (here side) (map (unlocated setting) settings)
   Drill at depth settings -> Drill (expr at) (expr depth) (map (unlocated setting) settings)
   Travel motion stops -> Travel motion (fmap stop stops)
@@ -199,6 +200,7 @@ setting s = case s of
   Tabs (TabCount n) w h a -> Tabs (TabCount (expr n)) (expr w) (expr h) (expr <$> a)
   Tabs (TabsAt ps) w h a -> Tabs (TabsAt (fmap expr ps)) (expr w) (expr h) (expr <$> a)
   Peck e -> Peck (expr e)
+  Angle e -> Angle (expr e)
   Islands es -> Islands (fmap expr es)
   ShortestWay -> ShortestWay
   RestAllowed -> RestAllowed

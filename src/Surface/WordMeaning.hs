@@ -143,6 +143,7 @@ statementMeant word = lookup (Text.toLower word) table
               ("turn", "turning lathe"),
               ("mill", "milling cut"),
               ("pocket", "pocketing pocket_mill"),
+              ("face", "facing face_mill facemill surfacing"),
               ("rest of", "rest_mill rest_milling restmill remachine"),
               ("coolant on", "flood m8 m08"),
               ("coolant off", "m9 m09"),

@@ -184,7 +184,12 @@ endPosition from ms = case ms of
 
 -- | The first word of a statement that clears a pocket.
 pocketKeyword :: Located Pocketing -> Region
-pocketKeyword (Located region p) = keyword (maybe 6 (const 4) (Part.roughing p)) region
+pocketKeyword (Located region p) = keyword letters region
+  where
+    letters = case Part.extent p of
+      Part.WholePocket -> 6
+      Part.RestOfPocket _ -> 4
+      Part.Surface _ -> 4
 
 -- | Shortens the region of a statement to its first word, which has @letters@ letters.
 keyword :: Int -> Region -> Region

@@ -8,7 +8,7 @@ where
 
 import Base.Quantity (Mm (..), minus, plus, times)
 import Base.Region (Located (..), Region)
-import Control.Monad (foldM, when)
+import Control.Monad (foldM, unless, when)
 import Data.Foldable (for_, toList)
 import Data.List (find)
 import Data.List.NonEmpty (NonEmpty (..))
@@ -30,9 +30,10 @@ import Geometry.Vec qualified as Vec
 import Offset.Equidistant qualified as Equidistant
 import Offset.Tolerance qualified as Tolerance
 import Part.Part
-  ( Element,
+  ( ClearedExtent (..),
+    Element,
     Milling (contour, feed),
-    Pocketing (islands, roughing, stepover, wall),
+    Pocketing (extent, islands, stepover, wall),
     SpacePoint (..),
   )
 import Part.Part qualified as Part
@@ -42,6 +43,7 @@ import Toolpath.DescentChoice qualified as DescentChoice
 import Toolpath.DescentReport (DescentFault (HelixBehindWall))
 import Toolpath.Error (Error (..))
 import Toolpath.HelixPlace qualified as HelixPlace
+import Toolpath.FacePath qualified as FacePath
 import Toolpath.Inset qualified as Inset
 import Toolpath.LinkingMove (Visit (Visit))
 import Toolpath.LinkingMove qualified as LinkingMove
@@ -60,24 +62,26 @@ import Toolpath.Toolpath qualified as Toolpath
 -- larger allowance than the last pass, and pockets with too many loops.
 blocks :: Int -> SpacePoint -> Located Pocketing -> Either Error [Block]
 blocks number at (Located region given) = do
-  for_
-    (find ((> NonEmpty.last (Part.allowances milling)) . Part.allowance . Part.finish) elements)
-    (Left . KeepsMore word)
+  unless isSurface $
+    for_
+      (find ((> NonEmpty.last (Part.allowances milling)) . Part.allowance . Part.finish) elements)
+      (Left . KeepsMore word)
   when
     (isNothing (clearanceAndLevels milling) && currentHeight > Mm 0)
     (Left (CutsAir word currentHeight lastHeight))
-  rests <- restAtWalls word pocket
+  rests <- if isSurface then Right [] else restAtWalls word pocket
   reverse . snd <$> foldM (addPass rests) (at, []) (zip [1 ..] passes)
   where
     word = LinkingMove.pocketKeyword (Located region given)
     pocket = oriented given
+    isSurface = isJust (Part.surface given)
     milling = wall pocket
     elements = elementsOf pocket
     currentHeight =
       fromMaybe (height at) (listToMaybe (mapMaybe Part.level (reverse (Part.approach milling))))
     passes = filter hasMoves (passesOf pocket currentHeight)
     -- A larger cutter may have left nothing for a pass.
-    hasMoves pass = isNothing (roughing pocket) || maybe True (not . null) (sectionsFrom pass Nothing)
+    hasMoves pass = isNothing (Part.roughing pocket) || maybe True (not . null) (sectionsFrom pass Nothing)
     lastHeight =
       listToMaybe [Part.place s | s <- reverse (Part.approach milling), isJust (Part.level s)]
     addPass rests (position, done) (k, pass) = do
@@ -303,11 +307,12 @@ movesOf wayDown slopeTo word milling z travelHeight = go
 -- has left of it; the others finish the walls. The result of a function is Nothing if there are too
 -- many loops.
 sectionsFor :: Pocketing -> NonEmpty (Maybe Point -> Maybe [PocketMove])
-sectionsFor pocket = case roughing pocket of
-  Nothing ->
+sectionsFor pocket = case extent pocket of
+  Surface face -> (Just . FacePath.sections pocket face) :| []
+  WholePocket ->
     (\from -> Pocket.clear (room first) step from)
       :| zipWith (\before a -> Pocket.finishWalls (room a) step before) (first : more) more
-  Just rough ->
+  RestOfPocket rough ->
     let along a distances =
           let found = RestPath.areas (room a) rough distances
            in \from -> (\areas -> RestPath.sections (room a) rough areas from) <$> found

@@ -103,9 +103,10 @@ loopsAt room distances = case distances of
   where
     go c loops more
       | null loops = []
-      | otherwise = (c, loops) : case more of
-        [] -> []
-        next : others -> go next (inwards loops (minus next c) next) others
+      | otherwise =
+        (c, loops) : case more of
+          [] -> []
+          next : others -> go next (inwards loops (minus next c) next) others
     inwards loops d c = fromMaybe (offsetBy room c) (insetOfLoops room loops d)
 
 -- | The areas of the chains of one loop distance. The areas @others@, which lie further inside,

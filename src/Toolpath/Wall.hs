@@ -20,7 +20,7 @@ import Data.List (foldl', partition, sortOn)
 import Data.List.NonEmpty (NonEmpty (..))
 import Data.List.NonEmpty qualified as NonEmpty
 import Data.Map.Strict qualified as Map
-import Data.Maybe (mapMaybe)
+import Data.Maybe (isJust, mapMaybe)
 import Data.Set (Set)
 import Data.Set qualified as Set
 import Geometry.Index.BoundingBox (BoundingBox)
@@ -128,6 +128,9 @@ machiningOf b = case b of
     | value (side milling) /= On ->
       Just (Machining (Toolpath.number pass) milling [elements (contour milling)])
     | otherwise -> Nothing
+  Clearing {pocket = Located _ p}
+    -- The cutter runs over the contours of a surface.
+    | isJust (Part.surface p) -> Nothing
   Clearing {pocket = Located _ p, pass} ->
     Just
       ( Machining

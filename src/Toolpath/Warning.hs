@@ -12,7 +12,7 @@ import Data.List (minimumBy, sortOn)
 import Data.List.NonEmpty qualified as NonEmpty
 import Data.Map.Strict (Map)
 import Data.Map.Strict qualified as Map
-import Data.Maybe (mapMaybe)
+import Data.Maybe (isJust, mapMaybe)
 import Data.Ord (comparing)
 import Data.Text (Text)
 import Geometry.Index.BoundingBox (BoundingBox)
@@ -227,6 +227,7 @@ firstPasses path =
 bodiesOf :: Mm -> Block -> Maybe (NonEmpty.NonEmpty Body)
 bodiesOf bore b = case b of
   Cutting {job = Located _ milling} -> NonEmpty.nonEmpty (bodyOf bore milling)
+  Clearing {pocket = Located _ p} | isJust (Part.surface p) -> Nothing
   Clearing {pocket = Located _ p} ->
     let outer =
           Part.contour (Part.wall p)

@@ -16,6 +16,7 @@ module Verify.Pocket
     pocketsOf,
     withRimOf,
     contains,
+    isOver,
     nearestWall,
     isOnFreeSide,
     isInOrder,
@@ -28,7 +29,7 @@ import Base.Region (Located (..), Region)
 import Data.Function (on)
 import Data.List.NonEmpty (NonEmpty (..))
 import Data.List.NonEmpty qualified as NonEmpty
-import Data.Maybe (fromMaybe)
+import Data.Maybe (fromMaybe, isJust)
 import Data.Vector qualified as Vector
 import Geometry.Carrier (Side (..))
 import Geometry.Distance qualified as Distance
@@ -75,6 +76,9 @@ data Pocket = Pocket
     rimAt :: Mm -> [(Element, Segment)],
     -- | floor that a larger cutter has cleared before
     roughed :: Maybe RoughedFloor,
+    -- | true if the cutter faces a region and may run over its contours. The rim is then the border
+    -- of the region
+    isSurface :: Bool,
     passes :: NonEmpty ClearingPass
   }
 
@@ -127,7 +131,7 @@ pocketsOf blocks = map pocketOf (NonEmpty.groupBy ((==) `on` statementNumber) cl
 -- | Pocket that one statement clears, from the blocks of its passes.
 pocketOf :: NonEmpty Clearing -> Pocket
 pocketOf clearings@(Clearing _ (Located statement pocketing) _ _ :| _) =
-  Pocket {statement, milling, side, walls, bounds, rim, rimDistance, rimAt, roughed, passes}
+  Pocket {statement, milling, side, walls, bounds, rim, rimDistance, rimAt, roughed, isSurface, passes}
   where
     milling = Part.wall pocketing
     side = fromMaybe LeftOf (Requirement.cutterSide milling)
@@ -140,13 +144,18 @@ pocketOf clearings@(Clearing _ (Located statement pocketing) _ _ :| _) =
       foldr1
         BoundingBox.union
         (fmap (BoundingBox.ofSegment . Part.segment) (Part.elements (Part.contour milling)))
-    rimDistance = plus (Requirement.centreDistance milling lastAllowance) spareRoom
+    isSurface = isJust (Part.surface pocketing)
+    rimDistance
+      | isSurface = Mm 0
+      | otherwise = plus (Requirement.centreDistance milling lastAllowance) spareRoom
     lastAllowance = NonEmpty.last (Part.allowances milling)
     rim = rimAt rimDistance
     wholeRimAt distance = rimOf side distance walls contours
     roughed = roughedFloor wholeRimAt <$> Part.roughing pocketing
     rimAt distance = case roughed of
-      Nothing -> wholeRimAt distance
+      Nothing
+        | isSurface -> [(e, Part.segment e) | e <- concat contours]
+        | otherwise -> wholeRimAt distance
       Just floor'
         | distance >= roughRimDistance floor' -> []
         | otherwise ->
@@ -164,7 +173,7 @@ pocketOf clearings@(Clearing _ (Located statement pocketing) _ _ :| _) =
 -- | Pocket with the rim of one of its passes in place of that of the final pass.
 withRimOf :: ClearingPass -> Pocket -> Pocket
 withRimOf pass pocket
-  | isFinal pass = pocket
+  | isFinal pass || isSurface pocket = pocket
   | otherwise = pocket {rim = rimAt pocket distance, rimDistance = distance}
   where
     distance = plus (reach pass) spareRoom
@@ -230,9 +239,22 @@ uncleared r floor' (e, s) =
 spareRoom :: Mm
 spareRoom = times 3 Tolerance.clearance
 
--- | Test that a point lies in a pocket.
+-- | Test that a point lies in a pocket, or so near to a region that is faced that a cutter which
+-- clears it may be there.
 contains :: Pocket -> Point -> Bool
-contains pocket = isInside (side pocket) (walls pocket)
+contains pocket
+  | isSurface pocket = isAt (times 2.5 (Part.radius (milling pocket))) pocket
+  | otherwise = isInside (side pocket) (walls pocket)
+
+-- | Test that a point is no further than a distance from the bounding box of a pocket.
+isAt :: Mm -> Pocket -> Point -> Bool
+isAt distance pocket p = BoundingBox.distance p (bounds pocket) <= distance
+
+-- | Test that the cutter may cross at a point above a pocket. @slack@ is the accuracy of a tape.
+isOver :: Mm -> Pocket -> Point -> Bool
+isOver slack pocket p
+  | isSurface pocket = contains pocket p
+  | otherwise = isAt slack pocket p
 
 -- | Test that a point lies on the free side of the wall nearest to it; false without walls.
 isInside :: Side -> BoxTree Edge -> Point -> Bool

@@ -71,7 +71,32 @@ data PassMotions = PassMotions
 -- pocket, and all motions near the pocket are examined for gouges. Otherwise only the motions of
 -- the pass are.
 examine :: MotionSet -> PassMotions -> Pocket -> Bool -> ClearingPass -> (ContourProof, [Finding])
-examine set PassMotions {isKnown, clears, isIn} pocket isFirst pass = (contourProof, findings)
+examine set motions pocket isFirst pass
+  | isSurface pocket = examineSurface set motions pocket pass
+  | otherwise = examineWalls set motions pocket isFirst pass
+
+-- | Compare the tape with one pass over a region that is faced: every point of the region has to be
+-- within the cutter's radius of a motion of the pass. The contours of other statements are compared
+-- with these motions there.
+examineSurface :: MotionSet -> PassMotions -> Pocket -> ClearingPass -> (ContourProof, [Finding])
+examineSurface set PassMotions {isKnown, isIn} pocket pass = (contourProof, findings)
+  where
+    (allowedGouge, allowedExcess) = allowedIn set pocket
+    clearing = clearingMotions set (\p m -> not isKnown || isIn p m) pocket pass
+    findings = floorFindings pocket pass (max allowedGouge allowedExcess) clearing
+    contourProof =
+      ContourProof
+        { Proof.contour = Part.contourName (Part.contour (milling pocket)),
+          Proof.gouge = Nothing,
+          Proof.excess = Nothing,
+          Proof.allowedGouge,
+          Proof.allowedExcess
+        }
+
+-- | Compare the tape with one pass of a pocket whose walls stay. @isFirst@ is as in 'examine'.
+examineWalls ::
+  MotionSet -> PassMotions -> Pocket -> Bool -> ClearingPass -> (ContourProof, [Finding])
+examineWalls set PassMotions {isKnown, clears, isIn} pocket isFirst pass = (contourProof, findings)
   where
     isInPass = isIn pass
     isClearing = clears pass

@@ -24,7 +24,6 @@ import Data.List.NonEmpty (NonEmpty)
 import Data.List.NonEmpty qualified as NonEmpty
 import Data.Maybe (fromMaybe, isJust, isNothing, listToMaybe)
 import Frame.Frame qualified as Frame
-import Geometry.Index.BoundingBox qualified as BoundingBox
 import Geometry.Segment (Segment (Straight))
 import Geometry.Segment qualified as Segment
 import Geometry.Tolerance qualified as Tolerance
@@ -445,7 +444,7 @@ inPocket machine isFlat solids slopes pocket pass =
       | otherwise =
         maybe False (\z -> isAt z from && isAt z to || isOverSolid z) clear
           && hasPace Part.Rapid
-          && all isOver [Segment.start s, Segment.end s]
+          && all (Pocket.isOver pulse pocket) [Segment.start s, Segment.end s]
       where
         s = Control.segment machine m
         (from, to) = Control.height machine m
@@ -461,7 +460,6 @@ inPocket machine isFlat solids slopes pocket pass =
         verticalPace = if from < to || any (to >=) clear then Part.Rapid else plungeFeed
         isRapid = hasPace Part.Rapid && not (hasPace (Part.At (Part.feed milling)))
         hasPace pace = isNothing (Feed.atPace machine pace False (Pocket.statement pocket) m)
-    isOver q = BoundingBox.distance q (Pocket.bounds pocket) <= pulse
     leavesAllowance s =
       and
         [ plus d (slackOf machine milling) >= Pocket.reach pass

@@ -136,7 +136,7 @@ pocketing before p =
           },
       Part.islands = map contourOf islands,
       Part.stepover = step p,
-      Part.roughing = Nothing
+      Part.extent = Part.WholePocket
     }
   where
     outline :| islands = loops p

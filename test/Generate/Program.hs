@@ -214,6 +214,7 @@ statement n = at (frequency ([(1, s) | s <- simple] <> [(3, s) | n > 0, s <- dee
         Mill <$> expr n <*> at every <*> some' 4 (setting n),
         Pocket <$> expr n <*> expr n <*> maybe' (at name) <*> some' 4 (setting n),
         RestOf <$> expr n <*> expr n <*> some' 4 (setting n),
+        Face <$> expr n <*> expr n <*> some' 4 (setting n),
         Turn <$> expr n <*> at every <*> some' 4 (setting n),
         Repeat <$> at name <*> expr n <*> inside,
         When <$> expr n <*> inside <*> inside,
@@ -299,6 +300,7 @@ setting n =
       Tabs . TabsAt <$> nonEmpty 3 (expr n) <*> expr n <*> expr n <*> maybe' (expr n),
       Peck <$> expr n,
       pure ShortestWay,
+      Angle <$> expr n,
       Islands <$> nonEmpty 3 (expr n),
       pure RestAllowed
     ]

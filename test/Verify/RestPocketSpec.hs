@@ -112,8 +112,8 @@ statements two = (Located roughAt first, Located (Region 10 11) second)
       asked (small two) {cutter = rough two, left = roughLeft two, step = times 0.9 (rough two)}
     second =
       (asked (small two))
-        { Part.roughing =
-            Just
+        { Part.extent =
+            Part.RestOfPocket
               Part.Roughing
                 { Part.roughedAt = roughAt,
                   Part.roughRadius = rough two,
@@ -160,7 +160,8 @@ chainsOf path =
     groups found ms = case ms of
       [] -> [reverse found | not (null found)]
       m : more
-        | uncurry (==) (Toolpath.heights m), Toolpath.pace m /= Part.Rapid ->
+        | uncurry (==) (Toolpath.heights m),
+          Toolpath.pace m /= Part.Rapid ->
           groups (Toolpath.segment m : found) more
         | otherwise -> [reverse found | not (null found)] <> groups [] more
 

@@ -12,7 +12,9 @@ syntax match partNumber /\<\d\+\(\.\d\+\)\?/
 syntax keyword partStatement part machine import tool feed tolerance clearance from let param table curve piece contour assert
 syntax keyword partStatement mill turn drill rapid move change spindle coolant aux with
 " Names as well, but for where a statement begins.
-syntax match partStatement /^\s*\zs\<\(pocket\|work\|program\|safe\|stock\|avoid\|dwell\)\ze\s\+[(-]\?\k/
+syntax match partStatement /^\s*\zs\<\(pocket\|face\|work\|program\|safe\|stock\|avoid\|dwell\)\ze\s\+[(-]\?\k/
+syntax match partStatement /^\s*\zs\<rest\s\+of\ze\s/
+syntax match partStatement /\(^\s*pocket\s.*\)\@<=\<as\ze\s/
 syntax match partStatement /^\s*\zs\<\(optional\s\+\)\?stop\ze\s*\(--.*\)\?$/
 syntax match partStatement /\(\<spindle\s\+\)\@<=manual\>/
 syntax match partStatement /\(^\s*spindle\s.*\)\@<=\<limit\>/
@@ -32,7 +34,7 @@ syntax keyword partLink meet near smooth tangent fillet chamfer slow bevel
 syntax keyword partPiece cipher joggle within first last
 syntax keyword partMilling outside inside left right on approach retract allowance
 " Words that may be names as well, where they begin a setting.
-syntax match partMilling /^\s*\zs\(depth\|lead\|corners\|climb\|conventional\|compensation\|start\|plunge\|peck\|shortest\|islands\|rest\)\>/
+syntax match partMilling /^\s*\zs\(depth\|lead\|corners\|climb\|conventional\|compensation\|start\|plunge\|peck\|shortest\|islands\|rest\|angle\|ramp\|helix\|spiral\|tabs\|tab\)\>/
 syntax match partMilling /\(\<lead\s\+\)\@<=out\>/
 syntax keyword partCutter cone blade diameter
 syntax keyword partFunction pi line true false polar intersection centre_of midpoint foot_of tangency point_on horizontal vertical

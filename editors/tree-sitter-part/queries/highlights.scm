@@ -12,7 +12,7 @@
 [
   "part" "units" "machine" "import" "tool" "feed" "tolerance" "clearance" "from"
   "let" "param" "table" "curve" "piece" "contour" "assert"
-  "mill" "turn" "pocket" "drill" "rapid" "move" "change" "spindle" "coolant" "aux" "with"
+  "mill" "turn" "pocket" "face" "drill" "rapid" "move" "change" "spindle" "coolant" "aux" "with"
   "work" "program" "safe" "stock" "avoid" "stop" "optional" "dwell"
 ] @keyword
 
@@ -33,7 +33,8 @@
 [
   "on" "off" "at" "step"
   "approach" "retract" "depth" "lead" "out" "line" "arc" "allowance" "corners" "round" "sharp"
-  "compensation" "compiler" "controller" "start" "plunge" "peck" "islands" "rest" "allowed"
+  "compensation" "compiler" "controller" "start" "plunge" "ramp" "helix" "pitch" "spiral" "tabs" "tab" "width"
+  "peck" "islands" "rest" "allowed" "angle" "of" "as"
   "diameter" "nose" "cone" "blade" "height" "gear" "flutes" "stickout" "holder" "tip"
   "manual" "limit" "s"
 ] @keyword
@@ -51,6 +52,7 @@
 (curve name: (name) @variable)
 (piece name: (name) @variable)
 (contour name: (name) @variable)
+(pocket name: (name) @variable)
 (for name: (name) @variable)
 (comprehension name: (name) @variable)
 (heading name: (name) @property)

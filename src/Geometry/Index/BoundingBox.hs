@@ -3,6 +3,7 @@
 module Geometry.Index.BoundingBox
   ( BoundingBox (..),
     ofSegment,
+    around,
     ofPoints,
     union,
     inflate,
@@ -43,6 +44,15 @@ ofSegment segment = case segment of
   Arc {start, end, centre, sweep = Rad s}
     | abs s < pi -> inflate (Segment.sagitta segment) (ofPoints start [end])
     | otherwise -> inflate (Segment.radius centre start) (ofPoints centre [])
+
+-- | The smallest box that contains a segment.
+around :: Segment -> BoundingBox
+around segment = case segment of
+  Straight a b -> ofPoints a [b]
+  Arc {start, end, centre} ->
+    let Mm r = Segment.radius centre start
+        extremes = [Vec.shift v centre | v <- [Vec.vec r 0, Vec.vec 0 r, Vec.vec (-r) 0, Vec.vec 0 (-r)]]
+     in ofPoints start (end : filter (Segment.hasFootOf segment) extremes)
 
 -- | The smallest box that contains two boxes.
 union :: BoundingBox -> BoundingBox -> BoundingBox
