@@ -192,14 +192,13 @@ beginning = Segment.start . Part.segment . NonEmpty.head . Part.elements
 millingOf :: Operation -> [Milling]
 millingOf operation = case operation of
   Mill job -> [value job]
-  Pocket (Located _ p)
-    -- The cutter runs over the contours of a surface.
-    | isJust (Part.surface p) -> []
-    | otherwise ->
-      Part.wall p :
-        [ (Part.wall p) {contour = i, Part.side = Part.Outside <$ Part.side (Part.wall p)}
-          | i <- Part.islands p
-        ]
+  Pocket (Located _ p) ->
+    let (inside, beside)
+          -- The cutter runs over the contours of a surface.
+          | isJust (Part.surface p) = (Part.On, Part.On)
+          | otherwise = (Part.Inside, Part.Outside)
+        from contour' side' = (Part.wall p) {contour = contour', Part.side = side' <$ Part.side (Part.wall p)}
+     in from (contour (Part.wall p)) inside : map (`from` beside) (Part.islands p)
   Drill _ -> []
   Travel _ -> []
   Command _ -> []

@@ -1,7 +1,7 @@
 -- | The toolpath that faces a region: parallel lines over it.
 --
 -- The lines are at most the stepover apart, and the strips that the cutter clears along them cover
--- the region and a little beyond. The cutter runs along a line wherever its strip contains a point
+-- the region. The cutter runs along a line wherever its strip contains a point
 -- of the region, and on by 'overrun' at both ends. So it clears every point of the region there,
 -- and goes down, and comes up, beside it. Where the strip leaves the region for longer, the line has
 -- a gap, over which the cutter is lifted.
@@ -26,6 +26,7 @@ import Geometry.Index.BoxTree qualified as BoxTree
 import Geometry.Polyarc qualified as Polyarc
 import Geometry.Segment (Segment (Straight))
 import Geometry.Segment qualified as Segment
+import Geometry.Tolerance qualified as Tolerance
 import Geometry.Transformation qualified as Transformation
 import Geometry.Vec (Point)
 import Geometry.Vec qualified as Vec
@@ -85,16 +86,20 @@ cutsOn r step outlines =
   where
     border = BoxTree.index BoundingBox.ofSegment outlines
     box@(BoundingBox _ bottom _ top) = foldr1 BoundingBox.union (map BoundingBox.around outlines)
-    beyond = times 0.1 r
-    -- The strips reach beyond the region on both sides.
-    wide = plus (Mm (top - bottom)) (times 2 beyond)
-    count = 1 + max 0 (ceiling (over (minus wide (times 2 r)) step - 1e-9)) :: Int
+    high = Mm (top - bottom)
+    count = 1 + max 0 (ceiling (over (minus high (times 2 r)) step - Tolerance.equal)) :: Int
+    -- The strips reach beyond the region on both sides, as far as the stepover allows.
+    beyond = min (times 0.1 r) (times 0.5 (minus (plus (spread step) (times 2 r)) high))
+    spread = times (fromIntegral (count - 1))
     heights
       | count == 1 = [Mm ((bottom + top) / 2)]
       | otherwise =
         [ plus
             (plus (minus (Mm bottom) beyond) r)
-            (times (fromIntegral k / fromIntegral (count - 1)) (minus wide (times 2 r)))
+            ( times
+                (fromIntegral k / fromIntegral (count - 1))
+                (minus (plus high (times 2 beyond)) (times 2 r))
+            )
           | k <- [0 .. count - 1]
         ]
 

@@ -17,7 +17,7 @@ import Data.List (groupBy, maximumBy, minimumBy, nub, nubBy, sortOn)
 import Data.List.NonEmpty (NonEmpty (..))
 import Data.List.NonEmpty qualified as NonEmpty
 import Data.Map.Strict qualified as Map
-import Data.Maybe (mapMaybe)
+import Data.Maybe (isNothing, mapMaybe)
 import Data.Ord (comparing)
 import Data.Set qualified as Set
 import Geometry.Carrier qualified as Carrier
@@ -100,12 +100,14 @@ intrusionsOfBlock machined b = case b of
   Clearing {pocket = job@(Located _ p), pass, approach, cleared, retract} ->
     let clearing = Intruder (radius (Part.wall p)) Nothing Nothing
         left = Just (number pass, NonEmpty.last (Part.allowances (Part.wall p)))
-     in concatMap (found clearing {leaving = left}) (approach <> retract)
+        -- All contours end at the top of the part, down to which a surface may be faced.
+        mayCut m = isNothing (Part.surface p) || uncurry min (Toolpath.heights m) < Mm 0
+     in concatMap (found clearing {leaving = left}) (filter mayCut (approach <> retract))
           <> take
             1
             ( concatMap
                 (map (asMilling (LinkingMove.pocketKeyword job)) . found clearing)
-                (NonEmpty.toList cleared)
+                (filter mayCut (NonEmpty.toList cleared))
             )
   where
     found = intrusionsOfMove machined

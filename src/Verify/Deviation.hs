@@ -219,8 +219,8 @@ allowsRest job = Part.rest (milling job) == Part.Allowed
 motionsKeepingOut :: MotionSet -> Bool -> MillingJob -> [CutterMotion] -> [CutterMotion]
 motionsKeepingOut set isFirst job along
   | isNothing (side job) = []
-  | isFirst = filter MotionSet.isBelowTop (MotionSet.nearby set box)
-  | otherwise = filter MotionSet.isBelowTop along
+  | isFirst = filter (MotionSet.isBelowTop set) (MotionSet.nearby set box)
+  | otherwise = filter (MotionSet.isBelowTop set) along
   where
     box = BoundingBox.inflate (maxReach job) (boxOf (milling job))
 

@@ -30,7 +30,7 @@ import Control.Motion qualified as Control
 import Data.IntMap.Strict (IntMap)
 import Data.IntMap.Strict qualified as IntMap
 import Data.IntSet qualified as IntSet
-import Data.List (foldl', sortOn)
+import Data.List (foldl', partition, sortOn)
 import Data.List.NonEmpty qualified as NonEmpty
 import Data.Map.Strict (Map)
 import Data.Map.Strict qualified as Map
@@ -198,12 +198,22 @@ motionSetOf subject passes =
   MotionSet
     { MotionSet.machine = machine subject,
       MotionSet.isFlat = Subject.isFlat subject,
+      MotionSet.isTopFaced,
       MotionSet.isPlanned = not (Subject.isDifferent subject),
       MotionSet.toolOf,
       MotionSet.motions = motions subject,
       MotionSet.nearby
     }
   where
+    isTopFaced = any ((== Mm 0) . fst) surfaceLevels && all (< Mm 0) otherLevels
+    (surfaceLevels, pocketLevels) =
+      partition
+        snd
+        [ (Pocket.level pass, Pocket.isSurface pocket)
+          | pocket <- pockets subject,
+            pass <- NonEmpty.toList (Pocket.passes pocket)
+        ]
+    otherLevels = map level passes <> map fst pocketLevels
     toolOf = Subject.toolIn subject passes
     nearby box
       | isAskedOnce = motions subject

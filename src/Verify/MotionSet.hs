@@ -21,6 +21,9 @@ data MotionSet = MotionSet
   { machine :: Machine,
     -- | true if the whole toolpath is at the height of its start; heights are then not compared
     isFlat :: Bool,
+    -- | true if a surface is faced down to the top of the part, and all contours and pockets are
+    -- below the top: then a motion at the top cuts none of them
+    isTopFaced :: Bool,
     -- | true if the tape has exactly the planned frames, those that the compiler made
     isPlanned :: Bool,
     -- | radius of the cutter in a motion, in mm
@@ -52,6 +55,10 @@ isSameHeight :: Machine -> Mm -> Mm -> Bool
 isSameHeight m (Mm z) (Mm h) = let Mm pulse = Machine.resolutionOf m Z in abs (z - h) <= pulse
 
 -- | Test that a motion reaches down to the top of the part or below it. Above the top, nothing is
--- cut.
-isBelowTop :: CutterMotion -> Bool
-isBelowTop m = fromHeight m <= Mm 0 || toHeight m <= Mm 0
+-- cut, and at a top that is faced no contour is.
+isBelowTop :: MotionSet -> CutterMotion -> Bool
+isBelowTop set m
+  | isTopFaced set = lowest < Mm 0
+  | otherwise = lowest <= Mm 0
+  where
+    lowest = min (fromHeight m) (toHeight m)

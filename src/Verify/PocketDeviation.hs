@@ -104,7 +104,7 @@ examineWalls set PassMotions {isKnown, clears, isIn} pocket isFirst pass = (cont
     -- Gouges
     examined =
       filter
-        (\m -> MotionSet.isBelowTop m && (isFirst || isInPass m))
+        (\m -> MotionSet.isBelowTop set m && (isFirst || isInPass m))
         (MotionSet.nearby set (BoundingBox.inflate (reach pass) (bounds pocket)))
     -- Linking moves only have to keep the distance of the final pass from the walls. On a tape with
     -- other frames than planned, they may also belong to the next statement.
