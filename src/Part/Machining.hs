@@ -420,8 +420,8 @@ restIn context at e settings stepover cleared rough = do
           }
       tooDeep =
         [ RestTooDeep (maybe at (region . fst) (Checked.depth settings)) (clearedAt cleared) d reached
-          | Just own <- [found],
-            not (null (levels (wall rough))),
+          | not (null (levels (wall rough))),
+            Just own <- [found],
             let d = lowest (levels own),
             d < reached
         ]

@@ -138,8 +138,8 @@ idleWarnings part path =
     ( Map.fromList
         [ (region, NothingLeft (LinkingMove.pocketKeyword job) (LinkingMove.keyword 6 rough))
           | Pocket job@(Located region p) <- Part.operations part,
-            Just Part.Roughing {Part.roughedAt = rough} <- [Part.roughing p],
-            region `Set.notMember` moving
+            region `Set.notMember` moving,
+            Just Part.Roughing {Part.roughedAt = rough} <- [Part.roughing p]
         ]
     )
   where

@@ -77,7 +77,7 @@ data Pocket = Pocket
     -- | floor that a larger cutter has cleared before
     roughed :: Maybe RoughedFloor,
     -- | true if the cutter faces a region and may run over its contours. The rim is then the border
-    -- of the region
+    -- of the region, moved inwards by 'spareRoom'
     isSurface :: Bool,
     passes :: NonEmpty ClearingPass
   }
@@ -146,16 +146,14 @@ pocketOf clearings@(Clearing _ (Located statement pocketing) _ _ :| _) =
         (fmap (BoundingBox.ofSegment . Part.segment) (Part.elements (Part.contour milling)))
     isSurface = isJust (Part.surface pocketing)
     rimDistance
-      | isSurface = Mm 0
+      | isSurface = spareRoom
       | otherwise = plus (Requirement.centreDistance milling lastAllowance) spareRoom
     lastAllowance = NonEmpty.last (Part.allowances milling)
     rim = rimAt rimDistance
     wholeRimAt distance = rimOf side distance walls contours
     roughed = roughedFloor wholeRimAt <$> Part.roughing pocketing
     rimAt distance = case roughed of
-      Nothing
-        | isSurface -> [(e, Part.segment e) | e <- concat contours]
-        | otherwise -> wholeRimAt distance
+      Nothing -> wholeRimAt distance
       Just floor'
         | distance >= roughRimDistance floor' -> []
         | otherwise ->
