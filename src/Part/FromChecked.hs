@@ -115,7 +115,7 @@ under stock operation = case (stock, operation) of
   (Just (Located _ s), Pocket (Located r p)) -> Pocket (Located r p {wall = wall p `from` s})
   _ -> operation
   where
-    m `from` s = m {surface = max (Mm 0) (highest s)}
+    m `from` s = m {materialTop = max (Mm 0) (highest s)}
 
 -- | The errors of a safe height that is lower than a clearance height of the program, or than a
 -- solid that the program avoids.

@@ -259,7 +259,7 @@ data Milling = Milling
     -- has none
     descent :: Located Descent,
     -- | the height at which the material begins: 0, or the top of the stock if that is higher
-    surface :: Mm,
+    materialTop :: Mm,
     -- | the material that the statement leaves to hold the part, with the region of the setting
     tabs :: Maybe (Located Tabs),
     -- | the form of the lead-in, and the length of its line or the radius of its arc

@@ -167,7 +167,6 @@ setting w = case w of
   "at" -> Just (value Type.aPoint, words' ["width"])
   "width" -> Just (value Type.len, words' ["height"])
   "height" -> Just (value Type.len, words' ["angle"])
-  "angle" -> Just (value Type.angle, [])
   "peck" -> Just (value Type.len, [])
   "islands" -> Just ([AtValue [Contour, ListOf Contour] False], [])
   "rest" -> Just (words' ["allowed"], [])

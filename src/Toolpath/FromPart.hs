@@ -221,7 +221,7 @@ blocksOf State {number, toolRadius, at} operation = case operation of
         | a <- NonEmpty.toList (Part.allowances milling),
           heights <- case Part.levels milling of
             [] -> [(heightOf milling, heightOf milling)]
-            zs -> zip (Part.surface milling : zs) zs
+            zs -> zip (Part.materialTop milling : zs) zs
       ]
 
 -- | Marks an inner corner at which the program may write a fillet: the contour is milled as

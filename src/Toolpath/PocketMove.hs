@@ -125,7 +125,7 @@ passesOf pocket currentHeight = concat (NonEmpty.zipWith withAllowance allowance
         let down = sectionsFrom (plungePoint milling)
          in [ PocketPass {allowance, level, above, sectionsFrom = const down}
               | (above, level) <-
-                  zip (Part.surface milling : NonEmpty.toList levels) (NonEmpty.toList levels)
+                  zip (Part.materialTop milling : NonEmpty.toList levels) (NonEmpty.toList levels)
             ]
 
 -- | The clearance height and the heights of the passes. Nothing for a pocket without a depth; the

@@ -37,7 +37,7 @@ data Slope = Slope {path :: Segment, between :: (Mm, Mm)}
 -- or the height at which the material begins.
 highest :: Milling -> Mm -> Mm
 highest milling level =
-  minimum (Part.surface milling : filter (> level) (Part.levels milling))
+  minimum (Part.materialTop milling : filter (> level) (Part.levels milling))
 
 -- | The way down at the beginning of the moves of a toolpath before a cut, and the moves after it.
 -- Nothing if the way is not as the statement asks. @side@ is the cutter's side of the contour,

@@ -33,13 +33,14 @@
 [
   "on" "off" "at" "step"
   "approach" "retract" "depth" "lead" "out" "line" "arc" "allowance" "corners" "round" "sharp"
-  "compensation" "compiler" "controller" "start" "plunge" "ramp" "helix" "pitch" "spiral" "tabs" "tab" "width"
+  "compensation" "compiler" "controller" "start" "plunge" "ramp" "helix" "pitch" "tabs" "tab" "width"
   "peck" "islands" "rest" "allowed" "angle" "of" "as"
   "diameter" "nose" "cone" "blade" "height" "gear" "flutes" "stickout" "holder" "tip"
   "manual" "limit" "s"
 ] @keyword
 (climb) @keyword
 (shortest) @keyword
+(spiral) @keyword
 (conventional) @keyword
 
 ; Definitions
