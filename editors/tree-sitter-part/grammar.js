@@ -292,13 +292,13 @@ module.exports = grammar({
     ramp: $ => seq('ramp', $._expression),
     helix: $ => seq('helix', 'pitch', $._expression, optional(seq('diameter', $._expression))),
     spiral: _ => 'spiral',
-    tabs: $ => seq(
+    tabs: $ => prec.right(seq(
       choice(
         seq('tabs', $._expression),
         seq('tab', 'at', $._expression, repeat(seq(',', $._expression))),
       ),
       'width', $._expression, 'height', $._expression, optional(seq('angle', $._expression)),
-    ),
+    )),
     peck: $ => seq('peck', $._expression),
     islands: $ => seq('islands', list($._expression)),
     rest: $ => seq('rest', 'allowed'),
