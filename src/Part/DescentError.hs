@@ -52,8 +52,7 @@ toReport unit misfit = case misfit of
   WithLead region word lead ->
     (at region "E0374" (quote word <> " begins on the path, so the statement cannot have a lead-in"))
       { others = [Label lead "the lead-in"],
-        fixes = [Fix.proposed (Fix.removal "Leave the lead-in out." lead)],
-        hints = ["A lead-out is possible."]
+        hints = ["Leave the lead-in out. A lead-out is possible."]
       }
   WithControl region word there ->
     (at region "E0374" (quote word <> " is not possible with compensation by the control"))

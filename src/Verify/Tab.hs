@@ -17,8 +17,9 @@ where
 import Base.Quantity (Mm (..), Rad (..), minus, over, plus, times)
 import Base.Region (Located (..))
 import Data.IntSet qualified as IntSet
+import Data.List (mapAccumL)
 import Data.List.NonEmpty qualified as NonEmpty
-import Data.Maybe (catMaybes, fromMaybe, listToMaybe, mapMaybe)
+import Data.Maybe (catMaybes, fromMaybe, mapMaybe)
 import Data.Vector (Vector)
 import Data.Vector qualified as Vector
 import Geometry.Carrier (Side)
@@ -60,7 +61,15 @@ levelled machine path ms
         isOverTabs = \m -> IntSet.member (number m) fitted
       }
   where
-    fitting = map (\m -> listToMaybe (mapMaybe (\pass -> levelledIn machine pass m) passes)) ms
+    -- The top of a tab is the same in all passes. There a motion belongs to the pass of the motion
+    -- before it.
+    fitting = snd (mapAccumL fit 0 ms)
+    fit before m =
+      let found = mapMaybe (\(k, pass) -> (k,) <$> levelledIn machine pass m) (zip [0 :: Int ..] passes)
+       in case (lookup before found, found) of
+            (Just same, _) -> (before, Just same)
+            (Nothing, (k, first) : _) -> (k, Just first)
+            (Nothing, []) -> (before, Nothing)
     fitted = IntSet.fromList (map number (catMaybes fitting))
     passes =
       [ p
