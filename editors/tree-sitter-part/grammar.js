@@ -118,6 +118,7 @@ module.exports = grammar({
       $.quantity,
       alias($.negative_quantity, $.sign),
       alias($.bracketed, $.group),
+      $.text,
     ),
     negative_quantity: $ => seq('-', $.quantity),
     bracketed: $ => seq('(', $._expression, ')'),

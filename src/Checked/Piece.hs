@@ -49,13 +49,35 @@ import Surface.Token (Numeral (..))
 
 -- | A column of a table. 'kind' is the type of its cells. 'size' is the factor that converts
 -- numbers from the heading's unit to mm, radians, mm/min or turns per minute. It is 'Nothing' if
--- the heading has no unit. 'isExtra' is false if the column gives a coordinate.
+-- the heading has no unit.
 data Column = Column
   { heading :: Located Name,
     kind :: Type,
     size :: Maybe Double,
-    isExtra :: Bool
+    role :: Role
   }
+
+-- | The role of a column: a coordinate of the points, a further column of values, or a column of
+-- texts, which is left out of the checked table.
+data Role = Coordinate | Further | Texts
+  deriving stock (Eq)
+
+isExtra :: Column -> Bool
+isExtra = (== Further) . role
+
+-- | Tests if all cells of the column with the index @i@, from 0, are texts, and there are such
+-- cells.
+holdsTexts :: [Surface.TableLine] -> Int -> Bool
+holdsTexts written i = not (null found) && all isText found
+  where
+    found =
+      [ c
+        | Located _ (Surface.Entries cells) <- written,
+          c : _ <- [NonEmpty.drop i cells]
+      ]
+    isText c = case c of
+      Surface.TextCell _ -> True
+      Surface.ValueCell _ -> False
 
 -- | Checks the lines of a table and infers the type of the table. The first line must name the
 -- columns.
@@ -64,7 +86,7 @@ table env name written = case written of
   Located at (Surface.Header headings) : rows -> do
     let names = [n | Surface.Heading n _ <- NonEmpty.toList headings]
         coordinates = coordinatesOf (map value names)
-    columns <- traverse (column coordinates) (NonEmpty.toList headings)
+    columns <- zipWithM (column coordinates . holdsTexts rows) [0 ..] (NonEmpty.toList headings)
     mapM_ mentionColumn columns
     reportRepeated names
     mapM_ reportConstant names
@@ -125,9 +147,9 @@ reportCoordinates at names = case (given CartesianRows, given PolarRows) of
           )
 
 -- | Checks the heading of a column. The dimension of a further column follows from the unit in its
--- heading, or from its use.
-column :: PointColumns -> Surface.Heading -> Infer Column
-column coordinates (Surface.Heading name unit) = case (unit, coordinate) of
+-- heading, or from its use. @isOfTexts@ is true if all its cells are texts.
+column :: PointColumns -> Bool -> Surface.Heading -> Infer Column
+column coordinates isOfTexts (Surface.Heading name unit) = case (unit, coordinate) of
   (Just u, _) -> do
     let (t, factor) = Type.ofUnit u
     case coordinate of
@@ -141,7 +163,11 @@ column coordinates (Surface.Heading name unit) = case (unit, coordinate) of
     Inference.monomorphic d
     pure (made (Type.Quantity d) Nothing)
   where
-    made kind size = Column {heading = name, kind, size, isExtra = isNothing coordinate}
+    made kind size = Column {heading = name, kind, size, role}
+    role
+      | isJust coordinate = Coordinate
+      | isOfTexts = Texts
+      | otherwise = Further
     coordinate
       | value name `notElem` coordinateNames coordinates = Nothing
       | value name == Name "angle" = Just Type.angle
@@ -150,14 +176,12 @@ column coordinates (Surface.Heading name unit) = case (unit, coordinate) of
 -- | Records the heading of a column, for editors. The columns of the coordinates belong to the
 -- language.
 mentionColumn :: Column -> Infer ()
-mentionColumn Column {heading = Located at (Name text), kind, isExtra}
-  | isExtra = Inference.mention at (Just at) text (Inference.Valued kind)
-  | otherwise =
-    Inference.mention
-      at
-      Nothing
-      text
-      (Inference.Described ("the " <> text <> " of the points of the table"))
+mentionColumn Column {heading = Located at (Name text), kind, role} = case role of
+  Further -> Inference.mention at (Just at) text (Inference.Valued kind)
+  Coordinate -> described ("the " <> text <> " of the points of the table")
+  Texts -> described "a column of texts, which are for people only"
+  where
+    described = Inference.mention at Nothing text . Inference.Described
 
 -- | Reports every column whose name an earlier column has. The report also points at the first such
 -- column.
@@ -252,7 +276,7 @@ row env columns number (Located at line) = case line of
     | otherwise -> pure (Just (Numbers numbers))
   Surface.Entries cells
     | length cells /= length columns ->
-      Nothing <$ wrongLength at number (length cells) (map region (NonEmpty.toList cells))
+      Nothing <$ wrongLength at number (length cells) (map cellRegion (NonEmpty.toList cells))
     | otherwise -> do
       cells' <- zipWithM (cell env) columns (NonEmpty.toList cells)
       let literals = PrimArray.primArrayFromList <$> traverse literalOf cells'
@@ -265,15 +289,26 @@ row env columns number (Located at line) = case line of
       Written _ -> Nothing
 
 -- | Checks a cell. The column @c@ gives the type that a cell with an expression must have.
-cell :: TypingEnvironment -> Column -> Surface.Expr -> Infer Cell
-cell env c e = case literalOf e of
-  Just x -> pure $! Literal (region e) x
-  Nothing -> Written <$> expect env (kind c) e
+cell :: TypingEnvironment -> Column -> Surface.Cell -> Infer Cell
+cell env c given = case given of
+  Surface.TextCell text -> do
+    let wrong = TextAsValue (region text) (value (heading c)) (role c == Coordinate)
+    unless (role c == Texts) (mistake wrong)
+    pure (Literal (region text) 0)
+  Surface.ValueCell e -> case literalOf e of
+    Just x -> pure $! Literal (region e) x
+    Nothing -> Written <$> expect env (kind c) e
   where
     literalOf (Located _ written) = case written of
       Surface.Literal (Numeral _ x) Nothing -> Just x
       Surface.Negate inner -> negate <$> literalOf inner
       _ -> Nothing
+
+-- | The region of a cell.
+cellRegion :: Surface.Cell -> Region
+cellRegion c = case c of
+  Surface.ValueCell e -> region e
+  Surface.TextCell t -> region t
 
 -- | Reverses the rows, and joins neighbouring 'Literals' into one table of numbers.
 joinRows :: [Row] -> [Row]

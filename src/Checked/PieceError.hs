@@ -30,6 +30,8 @@ data PieceError
   | -- | a column of coordinates with a unit of another dimension: the name of the column, its type,
     -- and the type of its unit
     CoordinateUnit Region Name Type Type
+  | -- | a text in a column of values: the name of the column, and true if the column gives points
+    TextAsValue Region Name Bool
   | -- | headings below the first line of a table: the regions of the names
     HeadingsRepeated Region [Region]
   | -- | a column whose name an earlier column has: the name, and the region of that column
@@ -89,6 +91,14 @@ toReport err = case err of
                 if wanted == Type.angle then " deg" else " mm",
                 ", or leave the unit out."
               ]
+          ]
+      }
+  TextAsValue region (Name name) givesPoints ->
+    (at region "E0205" ("the column " <> quote name <> " holds values, but this is a text"))
+      { hints =
+          [ if givesPoints
+              then "Write a number. It gives the point of the row."
+              else "A column holds either values or texts. Write a number, or only texts in it."
           ]
       }
   HeadingsRepeated region names ->

@@ -256,7 +256,8 @@ tableOf piece = Surface.WrittenLines (Located at (Surface.Header headings) : map
     line (row, ts) =
       Located
         (Region.merge (region (px row)) (region (py row)))
-        (Surface.Entries (unitless (px row) :| map unitless ([py row] <> surfaceCells row <> ts)))
+        (Surface.Entries (fmap cell (px row :| [py row] <> surfaceCells row <> ts)))
+    cell = Surface.ValueCell . unitless
     surfaceCells row = concat [[mu s, flangeHeight s] | Just s <- [surface row]]
 
 pieceName :: Int -> Name

@@ -41,7 +41,15 @@ import Data.Text qualified as Text
 import Data.Text.Read qualified as Read
 import Surface.Error (Error (..))
 import Surface.Keyword qualified as Keyword
-import Surface.Syntax (Expr, Expr_ (..), Heading (..), Numeral (..), TableLine, TableLine_ (..))
+import Surface.Syntax
+  ( Cell (..),
+    Expr,
+    Expr_ (..),
+    Heading (..),
+    Numeral (..),
+    TableLine,
+    TableLine_ (..),
+  )
 import Surface.Token (columnUnits, unitName)
 
 -- | Reads a text of comma-separated values, whose first character has the offset @begin@. Gives the
@@ -260,7 +268,7 @@ fullRow separator texts columns k line = case partitionEithers numbers of
       ( [CellCount (region line) k n (length cells) (isDecimalComma n)],
         Located (region line) BrokenLine
       )
-  ([], e : es) -> ([], Located (region line) (Entries (e :| es)))
+  ([], e : es) -> ([], Located (region line) (Entries (fmap ValueCell (e :| es))))
   (errors, _) -> (errors, Located (region line) BrokenLine)
   where
     numbers = map (number separator) (without texts cells)

@@ -237,10 +237,9 @@ line =
     onLine problem p = (:|) <$> p <*> zeroOrMore (onThisLine p) <* lineDone problem
     column = Heading <$> usedName <*> Parsec.optional (onThisLine unit)
     unit = Parsec.choice [u <$ keyword (Token.unitName u) | u <- Token.columnUnits]
-    cell =
-      number
-        <|> Parsec.hidden (located (Negate <$> (symbol "-" *> (number <|> misfit NotInRow))))
-        <|> parens expr
+    cell = Parsec.hidden (TextCell <$> text') <|> (ValueCell <$> (signed <|> parens expr))
+    signed = number <|> Parsec.hidden (located (Negate <$> (symbol "-" *> magnitude)))
+    magnitude = number <|> misfit NotInRow
 
 -- | A piece: @q = skin cipher 2(2.5), 4(mu, H) left joggle from 10 to 40 depth 2 radius 5@.
 piece :: Parser Statement_

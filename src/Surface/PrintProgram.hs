@@ -230,7 +230,10 @@ tableCells comments l = case l of
     ]
   BrokenLine -> []
   where
-    cell e = case Region.value e of
+    cell c = case c of
+      ValueCell e -> valueText e
+      TextCell t -> quoted (Region.value t)
+    valueText e = case Region.value e of
       Literal _ _ -> text (PrintExpression.value comments e)
       Negate (Located _ (Literal _ _)) -> text (PrintExpression.value comments e)
       _ -> "(" <> text (PrintExpression.value comments e) <> ")"

@@ -36,6 +36,7 @@ module Surface.Syntax
     Lines (..),
     TableLine,
     TableLine_ (..),
+    Cell (..),
     Heading (..),
     Cipher,
     Cipher_ (..),
@@ -307,11 +308,15 @@ data TableLine_
   = -- | @x y mu deg H@: the headings
     Header (NonEmpty Heading)
   | -- | one cell for each column
-    Entries {-# UNPACK #-} (NonEmpty Expr)
+    Entries {-# UNPACK #-} (NonEmpty Cell)
   | -- | consecutive lines of a table file; each has one number without a unit for each column
     Numbers {-# UNPACK #-} NumberTable
   | -- | a line with a mistake
     BrokenLine
+  deriving stock (Eq, Show)
+
+-- | A cell of a table: a value, or a text in quotation marks, which is for people only.
+data Cell = ValueCell Expr | TextCell (Located Text)
   deriving stock (Eq, Show)
 
 -- | The name of a column with the unit of its numbers.

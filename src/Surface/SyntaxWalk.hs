@@ -234,7 +234,7 @@ ofLink (Located _ l) = case l of
 ofLine :: TableLine -> [Expr]
 ofLine (Located _ l) = case l of
   Header _ -> []
-  Entries es -> NonEmpty.toList es
+  Entries cells -> [e | ValueCell e <- NonEmpty.toList cells]
   Numbers _ -> []
   BrokenLine -> []
 

@@ -94,12 +94,18 @@ lines' ls = case ls of
 line :: TableLine -> [TableLine]
 line (Located _ l) = map (Located nowhere) $ case l of
   Header columns -> [Header (fmap (\(Heading name unit) -> Heading (here name) unit) columns)]
-  Entries es -> [Entries (fmap expr es)]
+  Entries cells -> [Entries (fmap cell cells)]
   Numbers rows ->
-    [ maybe BrokenLine Entries (NonEmpty.nonEmpty (map literal (NumberTable.cells rows k)))
-      | k <- [0 .. NumberTable.count rows - 1]
+    [ maybe BrokenLine (Entries . fmap (ValueCell . literal)) (NonEmpty.nonEmpty numbers)
+      | k <- [0 .. NumberTable.count rows - 1],
+        let numbers = NumberTable.cells rows k
     ]
   BrokenLine -> [BrokenLine]
+
+cell :: Cell -> Cell
+cell c = case c of
+  ValueCell e -> ValueCell (expr e)
+  TextCell t -> TextCell (here t)
 
 -- | A number as an expression: a literal, or for a negative number a negated literal.
 literal :: Double -> Expr

@@ -208,7 +208,7 @@ statement n = at (frequency ([(1, s) | s <- simple] <> [(3, s) | n > 0, s <- dee
                             <$> at (Header <$> nonEmpty 3 heading)
                               <*> some'
                                 4
-                                (at (oneof [Entries <$> nonEmpty 3 cell, Numbers <$> rows]))
+                                (at (oneof [Entries <$> nonEmpty 3 anyCell, Numbers <$> rows]))
                         )
                 ),
         Mill <$> expr n <*> at every <*> some' 4 (setting n),
@@ -221,6 +221,7 @@ statement n = at (frequency ([(1, s) | s <- simple] <> [(3, s) | n > 0, s <- dee
         With <$> expr n <*> inside
       ]
     inside = some' 3 (statement (n - 1))
+    anyCell = frequency [(4, ValueCell <$> cell), (1, TextCell <$> at title)]
     toolNumber = at (oneof [flip Literal Nothing <$> number, Variable <$> name])
     cipher =
       Cipher <$> at (number `suchThat` (not . Text.any (== '.') . digits)) <*> nonEmpty 3 (expr n)
