@@ -193,12 +193,13 @@ millingOf :: Operation -> [Milling]
 millingOf operation = case operation of
   Mill job -> [value job]
   Pocket (Located _ p) ->
-    let (inside, beside)
+    let wall = Part.wall p
+        along side' c = wall {contour = c, Part.side = side' <$ Part.side wall}
+        (inside, beside)
           -- The cutter runs over the contours of a surface.
           | isJust (Part.surface p) = (Part.On, Part.On)
           | otherwise = (Part.Inside, Part.Outside)
-        from contour' side' = (Part.wall p) {contour = contour', Part.side = side' <$ Part.side (Part.wall p)}
-     in from (contour (Part.wall p)) inside : map (`from` beside) (Part.islands p)
+     in along inside (contour wall) : map (along beside) (Part.islands p)
   Drill _ -> []
   Travel _ -> []
   Command _ -> []

@@ -17,7 +17,7 @@ import Base.Region (Located (..), Region)
 import Data.List (mapAccumL, zipWith4)
 import Data.List.NonEmpty (NonEmpty (..))
 import Data.List.NonEmpty qualified as NonEmpty
-import Data.Maybe (fromMaybe, isJust)
+import Data.Maybe (fromMaybe, isNothing)
 import Frame.ChordError (ChordTolerance (..))
 import Frame.ChordError qualified as ChordError
 import Frame.Command (Translation)
@@ -110,7 +110,8 @@ wallsOf = snd . mapAccumL next (-1, Passage.walls [])
     next (n, walls) b = case b of
       Toolpath.Cutting {Toolpath.job, Toolpath.pass} -> at pass [Part.contour (value job)]
       Toolpath.Clearing {Toolpath.pocket = Located _ p, Toolpath.pass} ->
-        at pass (if isJust (Part.surface p) then [] else Part.contour (Part.wall p) : Part.islands p)
+        -- The cutter runs over the contours of a surface.
+        at pass [c | isNothing (Part.surface p), c <- Part.contour (Part.wall p) : Part.islands p]
       _ -> ((n, walls), walls)
       where
         at pass contours

@@ -25,7 +25,8 @@ import Part.Measure (lengthOf, notNegative)
 import Part.Parameter (Range (UpTo))
 import Part.Parameter qualified as Parameter
 import Part.Part
-import Part.PlaneRegion (PlaneRegion (..), RegionPart (..))
+import Part.PlaneRegion (PlaneRegion (..), RegionPart (outer))
+import Part.PlaneRegion qualified as PlaneRegion
 import Part.PocketError (PocketMisfit (StepTooWide))
 import Part.RegionBuiltin qualified as RegionBuiltin
 import Part.RegionError (RegionMistake (EmptyRegion))
@@ -49,35 +50,30 @@ facing context stockTop at e step settings = do
   let box = foldr1 BoundingBox.union (map (boxOf . outer) found)
   passDirection <- maybe (pure (alongLongerSide box)) directionOf (Checked.passAngle settings)
   heights <- levelsOf context stockTop (Checked.depth settings)
-  checkCount step (over (diagonal box) stepover)
+  Machining.checkPassCount (region step) (over (diagonal box) stepover)
   sequence <$> traverse (faced stepover passDirection heights) found
   where
     env = environment context
     directionOf angle = do
       x <- Expression.number <$> Expression.evaluate env angle
       pure (Vec.polar (Mm 1) (Rad x))
-    faced stepover passDirection heights (RegionPart outline inner) = do
-      Evaluation.spend at (sum (map (length . elements) (outline : inner)))
-      wall <-
-        Machining.millingOf
-          context
-          Milled
-          at
-          settings {Checked.depth = Nothing}
-          outline
-          (Located (region e) Inside)
-      let pocket w =
-            Pocketing
-              { wall =
-                  w
-                    { levels = heights,
-                      places = (places w) {depthAt = region . fst <$> Checked.depth settings}
-                    },
-                islands = inner,
-                stepover,
-                extent = Surface Facing {passDirection}
-              }
-      pure (pocket <$> wall)
+    faced stepover passDirection heights part = do
+      Evaluation.spend at (sum (map (length . elements) (outer part : PlaneRegion.holes part)))
+      fmap (over' stepover passDirection heights part) <$> wallOf part
+    wallOf part =
+      let plain = settings {Checked.depth = Nothing}
+       in Machining.millingOf context Milled at plain (outer part) (Located (region e) Inside)
+    over' stepover passDirection heights part wall =
+      Pocketing
+        { wall =
+            wall
+              { levels = heights,
+                places = (places wall) {depthAt = region . fst <$> Checked.depth settings}
+              },
+          islands = PlaneRegion.holes part,
+          stepover,
+          extent = Surface Facing {passDirection}
+        }
 
 -- | The heights of the passes from the highest to the lowest. The lowest is @depth@ below the top
 -- of the part, which is 0 without a depth. The steps begin at the top of the stock, if it is above
@@ -104,17 +100,6 @@ levelsOf context stockTop depth = case depth of
     top = case stockTop of
       Just z | z > Mm 0, z < Tolerance.reach -> z
       _ -> Mm 0
-
--- | Fails if there are more than 10 000 passes.
-checkCount :: Expr -> Double -> Eval ()
-checkCount step count =
-  when
-    (count > 10000)
-    ( Evaluation.mistake
-        (NotWhole (region step) Parameter.PassCount (UpTo 10000) (fromIntegral rounded))
-    )
-  where
-    rounded = ceiling (min 1e9 count) :: Int
 
 -- | The direction of the longer side of a box, the horizontal one if both are equally long.
 alongLongerSide :: BoundingBox -> Vec

@@ -49,6 +49,7 @@ import Part.Parameter qualified as Parameter
 import Part.Part
 import Part.Piece qualified as Piece
 import Part.PlaneRegion qualified as PlaneRegion
+import Part.RestMachining qualified as RestMachining
 import Part.Transformation qualified as Transformation
 import Part.Value (ClearedPockets (..), Value (..))
 
@@ -219,7 +220,7 @@ step state (Located at s) = case s of
     keep (Machining.pocketing now at e stepover settings) $ \found ->
       maybe id (namedPockets at (fromMaybe [] found)) own (eachPerformed Pocket found)
   Checked.RestOf e stepover settings ->
-    keep (Machining.restOf now at e stepover settings) (eachPerformed Pocket)
+    keep (RestMachining.restOf now at e stepover settings) (eachPerformed Pocket)
   Checked.Face e stepover settings ->
     keep
       (FaceMilling.facing now (highest . value <$> stock' state) at e stepover settings)

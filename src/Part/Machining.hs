@@ -9,7 +9,7 @@ module Part.Machining
     millingOf,
     checkCutter,
     pocketing,
-    restOf,
+    checkPassCount,
     drilling,
     stopsOf,
     spacePoint,
@@ -20,7 +20,7 @@ where
 
 import Base.Crash (bug)
 import Base.NumberTable qualified as NumberTable
-import Base.Quantity (Mm (..), Rad (..), over, plus, times)
+import Base.Quantity (Mm (..), Rad (..), over, times)
 import Base.Region (Located (..), Region (..))
 import Base.Region qualified as Region
 import Checked.Syntax (Expr)
@@ -55,11 +55,9 @@ import Part.Piece qualified as Piece
 import Part.PlaneRegion (PlaneRegion (..))
 import Part.PlaneRegion qualified as PlaneRegion
 import Part.PocketCheck qualified as PocketCheck
-import Part.PocketError
-  ( PocketMisfit (RestElsewhere, RestNotSmaller, RestTooDeep, RestWithoutDepth, StepTooWide),
-  )
+import Part.PocketError (PocketMisfit (StepTooWide))
 import Part.RegionError (RegionMistake (EmptyRegion))
-import Part.Value (ClearedPockets (..), Value (..))
+import Part.Value (Value (..))
 
 -- | The names and the settings in force at a statement. A setting that the statement needs is
 -- 'Nothing' only if a mistake in it is already reported.
@@ -347,87 +345,6 @@ pocketIn context at step settings outline islands = do
   case PocketCheck.misfits diameter outline islands <> tooWide of
     [] -> pure (pocket <$> wall)
     found -> Evaluation.mistakes [Error (InPocket m) [] [] | m <- found]
-
--- | Evaluates the clearing of what the statement @e@ has left in its pocket. @at@ is the region of
--- the statement and @step@ the expression of the stepover. Without a depth it has the passes of
--- that statement.
-restOf :: Context -> Region -> Expr -> Expr -> Checked.Settings -> Eval (Maybe [Pocketing])
-restOf context at e step settings = do
-  checkCutter context at RestStatement
-  v <- Expression.evaluate (environment context) e
-  stepover <- lengthOf (environment context) Parameter.Stepover step
-  let cleared = case v of
-        ClearingValue c -> c
-        _ -> bug "a value that is no pocket operation where one was checked"
-      diameter = times 2 . cutterRadius <$> cutter context
-      tooWide = [StepTooWide (region step) stepover d | Just d <- [diameter], stepover > d]
-  found <- traverse (restIn context at e settings stepover cleared) (pockets cleared)
-  case restMisfits context (region e) cleared <> tooWide of
-    [] -> do
-      sequence_ [checkPassCount (region step) (count stepover p) | Just p <- found]
-      pure (sequence found)
-    misfits -> Evaluation.mistakes [Error (InPocket m) [] [] | m <- misfits]
-  where
-    count stepover p =
-      maybe 0 (\r -> over (plus (roughRadius r) (roughAllowance r)) stepover) (roughing p)
-
--- | The faults of clearing what a statement has left: it is outside of a transformation around this
--- one, it has no depth, or its cutter is not larger. @at@ is the region of its name.
-restMisfits :: Context -> Region -> ClearedPockets -> [PocketMisfit]
-restMisfits context at cleared =
-  [RestElsewhere at (clearedAt cleared) | isElsewhere cleared]
-    <> take
-      1
-      ( [RestWithoutDepth at (clearedAt cleared) | p <- walls, null (levels p)]
-          <> [ RestNotSmaller at (clearedAt cleared) (cutterRadius c) (radius p)
-               | p <- walls,
-                 Just c <- [cutter context],
-                 cutterRadius c >= radius p
-             ]
-      )
-  where
-    walls = map wall (pockets cleared)
-
--- | Evaluates the clearing of what the statement @e@ has left in the pocket @rough@.
-restIn ::
-  Context ->
-  Region ->
-  Expr ->
-  Checked.Settings ->
-  Mm ->
-  ClearedPockets ->
-  Pocketing ->
-  Eval (Maybe Pocketing)
-restIn context at e settings stepover cleared rough = do
-  found <-
-    millingOf context Milled at settings (contour (wall rough)) (Located (region e) Inside)
-  Evaluation.spend at (sum (map (length . elements) (contour (wall rough) : islands rough)))
-  let heightsOf own = if null (levels own) then levels (wall rough) else levels own
-      lowest = foldr min (Mm 0)
-      reached = lowest (levels (wall rough))
-      pocket own =
-        rough
-          { wall = own {levels = heightsOf own},
-            stepover,
-            extent =
-              RestOfPocket
-                Roughing
-                  { roughedAt = clearedAt cleared,
-                    roughRadius = radius (wall rough),
-                    roughAllowance = NonEmpty.last (allowances (wall rough)),
-                    roughedDownTo = reached
-                  }
-          }
-      tooDeep =
-        [ RestTooDeep (maybe at (region . fst) (Checked.depth settings)) (clearedAt cleared) d reached
-          | not (null (levels (wall rough))),
-            Just own <- [found],
-            let d = lowest (levels own),
-            d < reached
-        ]
-  case tooDeep of
-    [] -> pure (pocket <$> found)
-    _ -> Evaluation.mistakes [Error (InPocket m) [] [] | m <- tooDeep]
 
 -- | Fails if the estimated number of passes, @count@, exceeds 10 000. No real pocket needs more.
 checkPassCount :: Region -> Double -> Eval ()

@@ -181,22 +181,7 @@ machining =
       ("right", "Keeps to the right, as seen in the direction of travel."),
       ("on", "Lets the centre of the cutter follow the contour; switches the coolant on.")
     ]
-    <> under
-      "language.md#pockets"
-      [ ("pocket", "Clears the inside of a closed contour."),
-        ("step", "Gives the stepover of a pocket, or the largest stepdown of a depth.")
-      ]
-    <> under
-      "language.md#rest-machining"
-      [ ("rest of", "Clears what a larger cutter has left in a pocket."),
-        ("of", "Comes before the name of the pocket whose rest is cleared."),
-        ("as", "Gives the clearing of a pocket a name.")
-      ]
-    <> under
-      "language.md#facing"
-      [ ("face", "Clears the surface of a region with parallel passes."),
-        ("angle", "Gives the direction of the passes over a surface.")
-      ]
+    <> clearing
     <> under
       "language.md#drilling"
       [ ("drill", "Drills holes; in a tool, it is a drill."),
@@ -218,6 +203,25 @@ machining =
         ("optional", "Begins a stop that a switch of the control turns on."),
         ("dwell", "Stops the axes for a time in seconds."),
         ("s", "Is the second, after the time of a dwell.")
+      ]
+
+clearing :: [(Text, ManualEntry)]
+clearing =
+  under
+    "language.md#pockets"
+    [ ("pocket", "Clears the inside of a closed contour."),
+      ("step", "Gives the stepover of a pocket, or the largest stepdown of a depth.")
+    ]
+    <> under
+      "language.md#rest-machining"
+      [ ("rest of", "Clears what a larger cutter has left in a pocket."),
+        ("of", "Comes before the name of the pocket whose rest is cleared."),
+        ("as", "Gives the clearing of a pocket a name.")
+      ]
+    <> under
+      "language.md#facing"
+      [ ("face", "Clears the surface of a region with parallel passes."),
+        ("angle", "Gives the direction of the passes over a surface.")
       ]
 
 settings :: [(Text, ManualEntry)]

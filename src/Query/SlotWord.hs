@@ -71,12 +71,6 @@ entries keyword = case keyword of
   "assert" -> own anything (words' ["within"]) <> [("within", (anything, []))]
   "mill" -> onContour (words' sides)
   "turn" -> onContour (words' sides)
-  "pocket" ->
-    onContour (words' ["step"]) <> [("step", (value Type.len, words' ["as"])), ("as", ([], []))]
-  "face" -> own (value Contour) (words' ["step"]) <> [("step", (value Type.len, []))]
-  "rest" ->
-    own (words' ["of"]) []
-      <> [("of", (value Clearing, words' ["step"])), ("step", (value Type.len, []))]
   "drill" ->
     own (words' ["at"]) []
       <> [ ("at", (drilled, words' ["depth"])),
@@ -85,13 +79,27 @@ entries keyword = case keyword of
   "with" -> own (value Transformation) []
   "for" -> own [] (words' ["in"]) <> [("in", (repeated, []))]
   "if" -> own (value Boolean) [] <> [("else", (words' ["if"], []))]
-  _ -> commandEntries keyword
+  _ -> clearingEntries keyword
   where
     own follows after = [(keyword, (follows, after))]
     body =
       own (value Contour) (words' ["from"])
         <> [("from", (value Type.len, words' ["to"])), ("to", (value Type.len, []))]
     onContour after = own (value Contour) after <> [(s, ([], [])) | s <- sides]
+
+-- | The entries of statements that clear pockets and surfaces, and those of 'commandEntries'.
+clearingEntries :: Text -> [(Text, ([Slot], [Slot]))]
+clearingEntries keyword = case keyword of
+  "pocket" ->
+    own (value Contour) (words' ["step"])
+      <> [("step", (value Type.len, words' ["as"])), ("as", ([], []))]
+  "face" -> own (value Contour) (words' ["step"]) <> [("step", (value Type.len, []))]
+  "rest" ->
+    own (words' ["of"]) []
+      <> [("of", (value Clearing, words' ["step"])), ("step", (value Type.len, []))]
+  _ -> commandEntries keyword
+  where
+    own follows after = [(keyword, (follows, after))]
 
 -- | The entries of moves and commands.
 commandEntries :: Text -> [(Text, ([Slot], [Slot]))]

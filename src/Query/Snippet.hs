@@ -35,30 +35,37 @@ statements =
     ("avoid", "avoid ${1:region} from ${2:0 mm} to ${3:12 mm}"),
     ("let", "let ${1:name} = $0"),
     ("param", "param ${1:name} = $0"),
-    ("contour", "contour ${1:name} closed {\n  $0\n}"),
-    ("mill", "mill ${1:contour} ${2:outside} {\n  approach (${3:0}, ${4:0})\n  $0\n}"),
+    ("contour", "contour ${1:name} closed {\n  $0\n}")
+  ]
+    <> cuttingStatements
+    <> [ ("rapid", "rapid (${1:0}, ${2:0})"),
+         ("move", "move (${1:0}, ${2:0})"),
+         ("change", "change ${1:2} drill(diameter ${2:5 mm})"),
+         ("spindle", "spindle ${1:cw}"),
+         ("coolant", "coolant ${1:on}"),
+         ("aux", "aux ${1:1}"),
+         ("stop", "stop"),
+         ("optional", "optional stop"),
+         ("dwell", "dwell ${1:2} s"),
+         ("for", "for ${1:p} in ${2:list} {\n  $0\n}"),
+         ("if", "if ${1:condition} {\n  $0\n}"),
+         ("with", "with ${1:rotated(90 deg)} {\n  $0\n}"),
+         ("table", "table ${1:name} {\n  x y\n  $0\n}"),
+         ("curve", "curve ${1:name} = spline(${2:table})"),
+         ("piece", "piece ${1:name} = ${2:curve} cipher 2(${3:1 mm}) ${4:left}"),
+         ("import", "import \"${1:file.part}\""),
+         ("assert", "assert $0")
+       ]
+
+-- | The statements that cut, as in 'statements'.
+cuttingStatements :: [(Text, Text)]
+cuttingStatements =
+  [ ("mill", "mill ${1:contour} ${2:outside} {\n  approach (${3:0}, ${4:0})\n  $0\n}"),
     ("pocket", "pocket ${1:contour} step ${2:3 mm} {\n  approach (${3:0}, ${4:0})\n  $0\n}"),
     ("face", "face ${1:blank} step ${2:20 mm} {\n  depth ${3:0 mm}\n  $0\n}"),
-    ("rest", "rest of ${1:rough} step ${2:1 mm} {\n  depth ${3:4 mm}\n  $0\n}"),
+    ("rest", "rest of ${1:rough} step ${2:1 mm} {\n  depth ${3:5 mm}\n  $0\n}"),
     ("drill", "drill at ${1:points} depth ${2:5 mm}"),
-    ("turn", "turn ${1:contour} ${2:outside} {\n  approach (${3:0}, ${4:0})\n  $0\n}"),
-    ("rapid", "rapid (${1:0}, ${2:0})"),
-    ("move", "move (${1:0}, ${2:0})"),
-    ("change", "change ${1:2} drill(diameter ${2:5 mm})"),
-    ("spindle", "spindle ${1:cw}"),
-    ("coolant", "coolant ${1:on}"),
-    ("aux", "aux ${1:1}"),
-    ("stop", "stop"),
-    ("optional", "optional stop"),
-    ("dwell", "dwell ${1:2} s"),
-    ("for", "for ${1:p} in ${2:list} {\n  $0\n}"),
-    ("if", "if ${1:condition} {\n  $0\n}"),
-    ("with", "with ${1:rotated(90 deg)} {\n  $0\n}"),
-    ("table", "table ${1:name} {\n  x y\n  $0\n}"),
-    ("curve", "curve ${1:name} = spline(${2:table})"),
-    ("piece", "piece ${1:name} = ${2:curve} cipher 2(${3:1 mm}) ${4:left}"),
-    ("import", "import \"${1:file.part}\""),
-    ("assert", "assert $0")
+    ("turn", "turn ${1:contour} ${2:outside} {\n  approach (${3:0}, ${4:0})\n  $0\n}")
   ]
 
 -- | The text of a setting that begins with these one or two words.

@@ -31,7 +31,8 @@ statements =
 -- @contour pocket closed@. Some of them are whole statements, some need a word after them.
 softStatements :: [Text]
 softStatements =
-  ["pocket", "rest", "face", "units", "work", "program", "safe", "stock", "avoid", "stop", "optional", "dwell"]
+  ["pocket", "rest", "face", "units", "work", "program", "safe", "stock", "avoid"]
+    <> ["stop", "optional", "dwell"]
 
 -- | The keywords that begin a repetition or a choice, either of statements or of items of a
 -- contour.

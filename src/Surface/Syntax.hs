@@ -131,8 +131,8 @@ data Statement_
     Assert Expr (Maybe Expr)
   | -- | @mill outline outside { … }@
     Mill Expr (Located Side) [Setting]
-  | -- | @pocket window step 4 mm as rough { … }@: the contour to clear, the stepover, the name of the
-    -- operation
+  | -- | @pocket window step 4 mm as rough { … }@: the contour to clear, the stepover, the name of
+    -- the operation
     Pocket Expr Expr (Maybe (Located Name)) [Setting]
   | -- | @rest of rough step 2 mm { … }@: the operation that left the material, the stepover
     RestOf Expr Expr [Setting]

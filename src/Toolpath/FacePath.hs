@@ -3,8 +3,8 @@
 -- The lines are at most the stepover apart, and the strips that the cutter clears along them cover
 -- the region. The cutter runs along a line wherever its strip contains a point
 -- of the region, and on by 'overrun' at both ends. So it clears every point of the region there,
--- and goes down, and comes up, beside it. Where the strip leaves the region for longer, the line has
--- a gap, over which the cutter is lifted.
+-- and goes down, and comes up, beside it. Where the strip leaves the region for longer, the line
+-- has a gap, over which the cutter is lifted.
 --
 -- Without a milling direction the lines are cut forwards and backwards in turn. With one they are
 -- all cut in the same direction, and between them the cutter is lifted.
@@ -50,7 +50,8 @@ sections pocket Facing {passDirection} from = linked from (map turnedBack lines'
         turned
         (concatMap (NonEmpty.toList . Polyarc.segments . Part.polyarcOf) contours)
     contours = contour (wall pocket) : islands pocket
-    lines' = concat (zipWith inOrder (directions (wall pocket)) (cutsOn r (stepover pocket) outlines))
+    lines' = concat (zipWith inOrder (directions (wall pocket)) cutsOnLines)
+    cutsOnLines = cutsOn r (stepover pocket) outlines
     linked at cuts = case cuts of
       [] -> []
       s : more ->

@@ -81,7 +81,8 @@ blocks number at (Located region given) = do
       fromMaybe (height at) (listToMaybe (mapMaybe Part.level (reverse (Part.approach milling))))
     passes = filter hasMoves (passesOf pocket currentHeight)
     -- A larger cutter may have left nothing for a pass.
-    hasMoves pass = isNothing (Part.roughing pocket) || maybe True (not . null) (sectionsFrom pass Nothing)
+    hasMoves pass =
+      isNothing (Part.roughing pocket) || maybe True (not . null) (sectionsFrom pass Nothing)
     lastHeight =
       listToMaybe [Part.place s | s <- reverse (Part.approach milling), isJust (Part.level s)]
     addPass rests (position, done) (k, pass) = do

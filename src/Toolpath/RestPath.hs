@@ -73,7 +73,8 @@ areas room roughing distances
   | otherwise = Just (foldr outside [] levels)
   where
     cleared = roughedDistance roughing
-    reached = BoxTree.index BoundingBox.ofSegment (concatMap NonEmpty.toList (offsetBy room cleared))
+    reached =
+      BoxTree.index BoundingBox.ofSegment (concatMap NonEmpty.toList (offsetBy room cleared))
     levels =
       [ map directed (concatMap (chainsOf idleReach longer reached c) loops)
         | (c, loops) <- loopsAt room (takeWhile (< cleared) distances)
@@ -216,8 +217,9 @@ data Progress = Progress {current :: Maybe Point, done :: [PocketMove]}
 -- chain the cutter goes straight if no wall is in the way and the way is not longer than the
 -- diameter of the larger cutter: in one corner it never is. Otherwise it is lifted.
 sections :: PocketRoom -> Roughing -> [RestArea] -> Maybe Point -> [PocketMove]
-sections room roughing found from = reverse (done (visitAll Progress {current = from, done = []} found))
+sections room roughing found from = reverse (done (visitAll start found))
   where
+    start = Progress {current = from, done = []}
     visitAll progress list = case nextOf progress list of
       Nothing -> progress
       Just (a, others) -> visitAll (visit progress a) others
@@ -243,8 +245,8 @@ nextOf progress list = case (list, current progress) of
   ([], _) -> Nothing
   (first : others, Just p)
     | null (drop 2000 list) ->
-      let number =
-            fst (minimumBy (comparing snd) (zip [0 :: Int ..] (map (Vec.distance p . entrance) list)))
+      let away = map (Vec.distance p . entrance) list
+          number = fst (minimumBy (comparing snd) (zip [0 :: Int ..] away))
        in case splitAt number list of
             (before, a : after) -> Just (a, before <> after)
             (_, []) -> Just (first, others)

@@ -120,7 +120,7 @@ warningReport unit warning = case warning of
       "The hole is not drilled"
       "let the drill go down at a feed"
   NothingLeft region rough ->
-    (report Report.Warning "W0404" (InSource region) "there is no rest that this cutter could clear")
+    (report Report.Warning "W0404" (InSource region) "there is no rest for this cutter to clear")
       { others = [Label rough "this pocket leaves no more than this cutter would"],
         message = ["So the statement makes no moves."],
         hints =

@@ -131,7 +131,19 @@ pocketsOf blocks = map pocketOf (NonEmpty.groupBy ((==) `on` statementNumber) cl
 -- | Pocket that one statement clears, from the blocks of its passes.
 pocketOf :: NonEmpty Clearing -> Pocket
 pocketOf clearings@(Clearing _ (Located statement pocketing) _ _ :| _) =
-  Pocket {statement, milling, side, walls, bounds, rim, rimDistance, rimAt, roughed, isSurface, passes}
+  Pocket
+    { statement,
+      milling,
+      side,
+      walls,
+      bounds,
+      rim,
+      rimDistance,
+      rimAt,
+      roughed,
+      isSurface,
+      passes
+    }
   where
     milling = Part.wall pocketing
     side = fromMaybe LeftOf (Requirement.cutterSide milling)

@@ -278,8 +278,8 @@ isOutside floor' piece middle w wall =
     walls = Pocket.walls (pocket floor')
     limit = wallLimit floor'
 
--- | Test that a larger cutter has cleared all of a piece from a part of the border of its positions.
--- If the result is true, this is certain.
+-- | Test that a larger cutter has cleared all of a piece from a part of the border of its
+-- positions. If the result is true, this is certain.
 hasRoughed :: Floor -> Segment -> Segment -> Bool
 hasRoughed floor' piece by =
   or [isWithin (roughedLimit f) piece by | Just f <- [Pocket.roughed (pocket floor')]]

@@ -41,7 +41,7 @@ spec = modifyMaxSuccess (const 60) $ do
     forAll ((,) <$> Generate.pocket <*> faced) $ \(p, Blind how) ->
       forAllPath (how p) $ \path ->
         forAllBlind (vectorOf 200 (anywhere p)) $ \ps -> conjoin (map (covered p (cuts path)) ps)
-  prop "a faced region that a line is missing of is not proven (catches a surface that is not seen)" $
+  prop "a region without one of its lines is not proven (catches a surface that is not seen)" $
     forAll ((,) <$> Generate.rectangle <*> faced) $ \(p, Blind how) ->
       forAllPath (how p {step = times 2 (cutter p)}) $ \path ->
         case (framesOf path, framesOf (withoutLongest path)) of
@@ -113,12 +113,13 @@ withoutLongest :: Toolpath -> Toolpath
 withoutLongest path = path {Toolpath.blocks = map shorter (Toolpath.blocks path)}
   where
     shorter b = case b of
-      Toolpath.Clearing {Toolpath.cleared} -> case break (isLongest cleared) (NonEmpty.toList cleared) of
-        (first : front, _ : others) -> b {Toolpath.cleared = first :| front <> others}
-        ([], _ : first : others) -> b {Toolpath.cleared = first :| others}
-        _ -> b
+      Toolpath.Clearing {Toolpath.cleared} ->
+        let most = maximum (fmap long (NonEmpty.filter isLevel cleared))
+         in case break (\m -> isLevel m && long m >= most) (NonEmpty.toList cleared) of
+              (first : front, _ : others) -> b {Toolpath.cleared = first :| front <> others}
+              ([], _ : first : others) -> b {Toolpath.cleared = first :| others}
+              _ -> b
       _ -> b
-    isLongest cleared m = isLevel m && long m >= maximum (fmap long (NonEmpty.filter isLevel cleared))
     isLevel m = Toolpath.pace m /= Part.Rapid && uncurry (==) (Toolpath.heights m)
     long = Segment.length . Toolpath.segment
 

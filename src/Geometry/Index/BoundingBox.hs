@@ -51,7 +51,8 @@ around segment = case segment of
   Straight a b -> ofPoints a [b]
   Arc {start, end, centre} ->
     let Mm r = Segment.radius centre start
-        extremes = [Vec.shift v centre | v <- [Vec.vec r 0, Vec.vec 0 r, Vec.vec (-r) 0, Vec.vec 0 (-r)]]
+        extremes =
+          [Vec.shift v centre | v <- [Vec.vec r 0, Vec.vec 0 r, Vec.vec (-r) 0, Vec.vec 0 (-r)]]
      in ofPoints start (end : filter (Segment.hasFootOf segment) extremes)
 
 -- | The smallest box that contains two boxes.
