@@ -199,6 +199,7 @@ job c =
               (\s -> Element s (Region 0 0) Part.plainFinish False False Nothing)
               (segments (contour c))
           )
+          []
           [],
       Part.givesStart = False,
       Part.work = Part.Milled,

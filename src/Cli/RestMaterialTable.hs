@@ -63,6 +63,7 @@ table unit Remaining {tool, walls, RestMaterial.positions = regions} =
 row :: LengthUnit -> Tool -> (RestPosition, UnreachedPart) -> [Text]
 row unit tool (stay, rest) = case stay of
   InCorner _ _ p -> at p "" "inner corner"
+  AtBreak _ p thick -> at p "" ("break, " <> Decimal.inUnit unit thick <> " thick")
   InConcaveArc _ radius largest ->
     at (cutterCentre rest) (fitting largest) ("concave radius of " <> Decimal.inUnit unit radius)
   Between _ _ p largest -> at p (fitting largest) "narrow place, with the cutter's centre here"

@@ -235,6 +235,7 @@ restMaterialOf path = nubOrdOn around (concatMap drawn (RestMaterial.ofPath path
 reasonOf :: LengthUnit -> Tool -> RestPosition -> Text
 reasonOf unit tool stay = case stay of
   InCorner {} -> "inner corner, cutter " <> r (Error.radius tool)
+  AtBreak {} -> "break, cutter " <> r (Error.radius tool)
   InConcaveArc _ arc _ -> r (Error.radius tool) <> " does not reach " <> r arc
   Between {} -> "too narrow for " <> r (Error.radius tool)
   where

@@ -47,6 +47,7 @@ module Geometry.Curve
     fitJoggle,
     ramp,
     shifted,
+    unshifted,
     Side (..),
 
     -- * Evaluation and measurement
@@ -73,6 +74,7 @@ module Geometry.Curve
     nearest,
     atX,
     corners,
+    joinedCorners,
     Cusp,
     firstCusp,
 
@@ -105,7 +107,16 @@ import Geometry.Curve.PointSearch (atX, corners, nearest)
 import Geometry.Curve.PointSearch qualified as PointSearch
 import Geometry.Curve.ShiftDistance (Distance (..), Growth (..), Joggle (..), ramp)
 import Geometry.Curve.ShiftDistance qualified as ShiftDistance
-import Geometry.Curve.ShiftedCurve (Curve (..), Layer (..), base, breaks, domain, layers, shifted)
+import Geometry.Curve.ShiftedCurve
+  ( Curve (..),
+    Layer (..),
+    base,
+    breaks,
+    domain,
+    joinedCorners,
+    layers,
+    shifted,
+  )
 import Geometry.Curve.ShiftedCurve qualified as ShiftedCurve
 import Geometry.Curve.Span (Span (..), SpanShape (..))
 import Geometry.Curve.Spline (Cubics)
@@ -165,6 +176,10 @@ fromSegmentsAt segments points = Unshifted <$> BasisCurve.fromSegmentsAt segment
       ([], _ : _) -> Just (u, (u, [], []))
       (_, []) -> Nothing
 
+-- | Curve below all shifts.
+unshifted :: Curve -> Curve
+unshifted = Unshifted . base
+
 -- | Column: a function of the curve's parameter that has the given values at the rows, one for each
 -- row. Between the rows it is interpolated by the same method as the points; see
 -- "Geometry.Curve.Column". Another count of values than 'rowCount' is a bug of the caller.
@@ -178,7 +193,10 @@ rowCount = Vector.length . BasisCurve.rows . base
 -- | Value of the column @c@ of the curve at the parameter @u@, in the unit of the column's values.
 columnAt :: Curve -> Column -> Double -> Double
 columnAt curve c u =
-  PowerSeries.value (Column.series 0 (base curve) c (ShiftedCurve.spanPoint After u curve))
+  PowerSeries.value (Column.series 0 (base curve) c foot)
+  where
+    (foot, _) = ShiftedCurve.footing curve s
+    s = ShiftedCurve.position After u curve
 
 -- | Reorders values, one for each row of a curve: the result has the order of the rows of the
 -- reversed curve.
@@ -248,7 +266,7 @@ curvature curve u = TaylorExpansion.curvature (expansion After 2 curve u)
 -- of two spans it is that of the span before or after the joint, as @approach@ says.
 expansion :: Approach -> Int -> Curve -> Double -> TaylorExpansion
 expansion approach n curve u =
-  ShiftedCurve.expansionAt n curve (ShiftedCurve.spanPoint approach u curve)
+  ShiftedCurve.expansionAt n curve (ShiftedCurve.position approach u curve)
 
 -- | First point of the curve.
 start :: Curve -> Point
@@ -280,11 +298,8 @@ shiftDistance :: Curve -> Double -> Mm
 shiftDistance curve u = case curve of
   Unshifted _ -> Mm 0
   Shifted layer lower _ ->
-    let s = ShiftedCurve.spanPoint After u curve
-     in Mm
-          ( PowerSeries.value
-              (ShiftedCurve.distanceAt 0 layer lower (ShiftedCurve.expansionAt 1 lower s) s)
-          )
+    let (_, d) = ShiftedCurve.shiftAt 0 layer lower (ShiftedCurve.position After u curve)
+     in Mm (PowerSeries.value d)
 
 -- | Curve in the opposite direction.
 reversed :: Curve -> Curve

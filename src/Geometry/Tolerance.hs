@@ -17,6 +17,7 @@ module Geometry.Tolerance
     smoothAngle,
     parallel,
     kink,
+    joinedCorner,
     cuspAngle,
     cuspDepth,
 
@@ -29,6 +30,7 @@ module Geometry.Tolerance
     arcLength,
     arcLengthShare,
     parameter,
+    sameParameter,
     stationary,
 
     -- * Arc fitting
@@ -78,6 +80,12 @@ parallel = 1e-12
 kink :: Rad
 kink = Rad 1e-3
 
+-- | The largest change of direction at a corner that one shift of a curve has made and at which the
+-- next shift joins both sides. A distance that changes by 1 mm over 1 mm makes such a corner. On a
+-- larger one, the sides would have to be continued too far.
+joinedCorner :: Rad
+joinedCorner = Rad (pi / 4)
+
 -- | The largest angle between the two elements at a cusp. Where it is so small, rounding of the
 -- vertex and the curvature of the elements may give it either sign, so the sign does not show on
 -- which side the contour turns back.
@@ -117,6 +125,11 @@ arcLengthShare = 1e-12
 -- | The largest error of a curve's parameter, which rises by 1 over each span.
 parameter :: Double
 parameter = 1e-12
+
+-- | The largest difference of two parameters of a curve that count as one. Where a shift stretches
+-- the parameters of a curve beside a corner, rounding changes them by less.
+sameParameter :: Double
+sameParameter = 1e-11
 
 -- | The largest velocity of a point of a curve, in mm per unit of the curve's parameter, that
 -- counts as 0.

@@ -232,6 +232,7 @@ image region s v = case v of
     moved c =
       c
         { elements = fmap (\e -> e {segment = Transformation.segment s (segment e)}) (elements c),
+          breaks = map (Transformation.point s) (breaks c),
           writtenElements = []
         }
     reachable = within region . Vec.norm . offset

@@ -15,7 +15,7 @@ import Checked.Syntax qualified as Checked
 import Control.Applicative ((<|>))
 import Data.List.NonEmpty (NonEmpty (..))
 import Data.List.NonEmpty qualified as NonEmpty
-import Data.Maybe (listToMaybe)
+import Data.Maybe (catMaybes, listToMaybe)
 import Geometry.Carrier (Line (Line), Sense (..))
 import Geometry.Carrier qualified as Carrier
 import Geometry.Distance qualified as Distance
@@ -64,7 +64,12 @@ contour env name closure items = do
       Right elements ->
         let written = map asWritten (NonEmpty.toList some)
             forced = foldr seq written written
-         in pure Contour {contourName = name, ends, elements, writtenElements = forced}
+            list = NonEmpty.toList some
+            following = NonEmpty.tail some <> [NonEmpty.head some | ends == Closed]
+            breaks =
+              concatMap LinkSolver.breaks some
+                <> map fst (catMaybes (zipWith LinkSolver.breakBetween list following))
+         in pure Contour {contourName = name, ends, elements, breaks, writtenElements = forced}
   where
     ends = case value closure of
       Checked.Open -> Open
@@ -166,6 +171,7 @@ linkedElements (ItemPlace whole at mayBeClosed) sense v finish link = case (v, s
                 LinkSolver.finish,
                 LinkSolver.bevel = [],
                 LinkSolver.sourceCurve = case v of CurveValue c -> Just c; _ -> Nothing,
+                LinkSolver.breaks = case v of CurveValue c -> Curve.breakPoints c; _ -> [],
                 LinkSolver.link
               }
        in w `seq` pure [w]
@@ -184,12 +190,16 @@ elementsOfContour ::
   Contour ->
   [LinkSolver.LinkedElement]
 elementsOfContour whole at finish link c =
-  case (Part.curveRuns (NonEmpty.toList (elements c)), ends c) of
+  withBreaks $ case (Part.curveRuns (NonEmpty.toList (elements c)), ends c) of
     ([], _) -> []
     (runs, Open) -> zipWith run runs (map fixed (init runs) <> [link])
     ([one], Closed) -> [run one link]
     (runs, Closed) -> zipWith run runs (zipWith joint runs (drop 1 runs <> take 1 runs))
   where
+    -- The points of the breaks hold for the whole contour, so one element can have them all.
+    withBreaks linked = case linked of
+      [] -> []
+      w : more -> w {LinkSolver.breaks = breaks c} : more
     run = elementOfRun whole finish
     fixed r = Just (at, Fixed (Segment.end (Part.segment (NonEmpty.last r))))
     joint a b =
@@ -231,6 +241,7 @@ elementOfRun whole finish run@(e :| more) link =
         [(0, b) | Just (b, _) <- [Part.bevel e]]
           <> [(s, b) | (s, Just (_, b)) <- zip ends' (map Part.bevel (NonEmpty.toList run))],
       LinkSolver.sourceCurve = Nothing,
+      LinkSolver.breaks = [],
       LinkSolver.link
     }
   where

@@ -14,6 +14,7 @@ module Part.Curve
     Fitting (..),
     curve,
     plain,
+    breakPoints,
     ends,
     reversed,
     transformed,
@@ -139,6 +140,12 @@ parametric c =
         [] -> Exact.domain c :| []
         u : us -> u :| us
     }
+
+-- | The points at which the recalculations of a curve have made slight corners.
+breakPoints :: PartCurve -> [Point]
+breakPoints c = foldr seq found found
+  where
+    found = map (Exact.at (exact c)) (Exact.joinedCorners (exact c))
 
 -- | The first and the last point of a curve.
 ends :: PartCurve -> [Point]

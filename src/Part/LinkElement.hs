@@ -2,18 +2,24 @@
 module Part.LinkElement
   ( LinkedElement (..),
     edgesOf,
+    breakBetween,
   )
 where
 
+import Base.Quantity (Rad (..))
 import Base.Region (Region)
 import Data.List.NonEmpty (NonEmpty)
 import Data.List.NonEmpty qualified as NonEmpty
+import Geometry.Curve qualified as Exact
 import Geometry.ElementCarrier (ElementCarrier (..))
 import Geometry.Polyarc (Ends (..))
+import Geometry.Tolerance qualified as Tolerance
 import Geometry.Vec (Point)
-import Part.Curve (PartCurve)
+import Geometry.Vec qualified as Vec
+import Part.Curve (PartCurve (exact))
 import Part.Link (Link (..))
 import Part.Part (Finish)
+import Part.Tolerance qualified as PartTolerance
 
 -- | An element of a contour, and the link to the element after it.
 data LinkedElement = LinkedElement
@@ -31,6 +37,8 @@ data LinkedElement = LinkedElement
     bevel :: [(Double, Double)],
     -- | the exact curve, if the element is a curve
     sourceCurve :: Maybe PartCurve,
+    -- | the points at which the element may have a break ("Part.Break")
+    breaks :: [Point],
     -- | the region of the link, and the link; absent if the program writes no link. The element
     -- then meets the next one, unless it is the last of an open contour
     link :: Maybe (Region, Link)
@@ -57,3 +65,26 @@ edgesOf ends linked = case traverse asPoint (NonEmpty.toList linked) of
       OnLine _ -> Nothing
       OnCircle _ _ -> Nothing
       OnCurve _ -> Nothing
+
+-- | End of the first element and start of the second one, if they are pieces between which there is
+-- a break ("Part.Break"): the curves from which the pieces are made continue one another smoothly,
+-- but the distances of the pieces change differently there. So the pieces meet at a slight corner.
+breakBetween :: LinkedElement -> LinkedElement -> Maybe (Point, Point)
+breakBetween a b = case (sourceCurve a, sourceCurve b) of
+  (Just c, Just d)
+    | areOne (Exact.end (exact c)) (Exact.start (exact d)),
+      areOne (Exact.end (theoretical c)) (Exact.start (theoretical d)),
+      turn (theoretical c) (theoretical d) <= PartTolerance.smoothTurn,
+      turn (exact c) (exact d) > PartTolerance.smoothTurn,
+      turn (exact c) (exact d) <= Tolerance.joinedCorner ->
+      Just (Exact.end (exact c), Exact.start (exact d))
+  _ -> Nothing
+  where
+    theoretical = Exact.unshifted . exact
+    areOne p q = Vec.distance p q <= PartTolerance.smoothGap
+    turn c d =
+      let Rad angle =
+            Vec.signedAngle
+              (Exact.tangentFrom Exact.Before c (Exact.domain c))
+              (Exact.tangentFrom Exact.After d 0)
+       in Rad (abs angle)

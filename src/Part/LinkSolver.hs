@@ -10,6 +10,7 @@
 module Part.LinkSolver
   ( LinkedElement (..),
     Link (..),
+    breakBetween,
     solve,
   )
 where
@@ -47,7 +48,7 @@ import Part.ContourError qualified as ContourError
 import Part.Link (Link (..))
 import Part.LinkCandidate (Joint (..))
 import Part.LinkCandidate qualified as LinkCandidate
-import Part.LinkElement (LinkedElement (..), edgesOf)
+import Part.LinkElement (LinkedElement (..), breakBetween, edgesOf)
 import Part.LinkSearch qualified as LinkSearch
 import Part.Part (Element (Element, continues, origin, segment), plainFinish)
 import Part.Tolerance qualified as Tolerance
@@ -252,11 +253,10 @@ closedByShortest linked = do
 -- | All joints of element @a@ with element @b@ after it. Two elements without a link between them
 -- meet.
 jointsOf :: LinkedElement -> LinkedElement -> Either ContourFault (NonEmpty Joint)
-jointsOf a b =
-  LinkCandidate.candidates
-    (neighboursOf a b)
-    (catMaybes [ownEnd a, ownStart b])
-    (maybe (Meet Nothing) snd (link a))
+jointsOf a b = case (maybe (Meet Nothing) snd (link a), breakBetween a b) of
+  (Smooth, Just (p, q)) -> Right (Joint p q Nothing :| [])
+  (written, _) ->
+    LinkCandidate.candidates (neighboursOf a b) (catMaybes [ownEnd a, ownStart b]) written
 
 -- | Two neighbouring elements with the region of the link between them, for reports.
 neighboursOf :: LinkedElement -> LinkedElement -> Neighbours

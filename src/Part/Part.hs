@@ -136,6 +136,9 @@ data Contour = Contour
     ends :: Ends,
     -- | the segments of the contour; each begins where the segment before it ends
     elements :: NonEmpty Element,
+    -- | the points at which the contour may have a break: where the changes of distance of its
+    -- pieces begin and end
+    breaks :: [Point],
     -- | the elements as the program writes them. The list is empty if they no longer describe the
     -- contour, because it was transformed, reversed, or given another start. It is also empty in a
     -- toolpath, to save memory

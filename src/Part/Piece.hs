@@ -34,6 +34,7 @@ import Checked.Syntax qualified as Checked
 import Control.Monad (foldM, when)
 import Data.Foldable (find)
 import Data.List.NonEmpty qualified as NonEmpty
+import Data.Maybe (fromMaybe)
 import Data.Primitive.PrimArray qualified as PrimArray
 import Data.Vector (Vector)
 import Data.Vector qualified as Vector
@@ -138,7 +139,15 @@ recalculated env base side lower (Located at cipher) = do
       a <- parameter p
       b <- parameter q
       if a < b then pure (a, b) else mistake (GrowthEnds at)
-    parameter e = (\v -> Exact.nearest (Expression.point v) lower) <$> Expression.evaluate env e
+    parameter e =
+      (\v -> atBreak (Exact.nearest (Expression.point v) lower)) <$> Expression.evaluate env e
+    -- The parameter of a break between two smooth stretches if its point is the same. Rounding
+    -- would otherwise leave a tiny stretch between them.
+    atBreak u =
+      fromMaybe
+        u
+        (find (\b -> Vec.distance (at' b) (at' u) <= Tolerance.curve) (Exact.breaks lower))
+    at' = Exact.at lower
 
 mistake :: CurveMistake -> Eval a
 mistake = Evaluation.mistake . InCurve
@@ -179,7 +188,9 @@ mentions names (Located _ e) = case e of
       Checked.Ranked _ -> False
 
 -- | The curve @lower@, shifted to a side by @distance@. Fails if the shift opens a gap at a corner,
--- or a step at a slight corner, or if the shifted curve turns back in a cusp.
+-- or a step at a slight corner, or if the shifted curve turns back in a cusp. At a corner that an
+-- earlier shift has made, there is mostly no gap, because the shift joins both sides
+-- ("Geometry.Curve.ShiftedCurve").
 shiftedBy :: Region -> Carrier.Side -> Distance -> Exact.Curve -> Eval Exact.Curve
 shiftedBy at side distance lower = do
   let whole = Exact.shifted side distance lower
@@ -195,10 +206,10 @@ shiftedBy at side distance lower = do
     -- A curve that is shifted by d has closed the gap dθ at a slight corner of the angle θ. Along
     -- the curve this changes nothing; across the curve it moves points if d varies.
     hasStep whole u =
-      let Rad turn = cornerAngle u
+      let turned@(Rad turn) = cornerAngle u
           Rad slope = angleBetween (leaving lower u) (leaving whole u)
           Mm d = Exact.shiftDistance whole u
-       in Mm (abs d * turn * sin slope) > Tolerance.smoothGap
+       in turned <= Tolerance.kink && Mm (abs d * turn * sin slope) > Tolerance.smoothGap
     angleBetween v w = let Rad a = Vec.signedAngle v w in Rad (abs a)
 
 -- | The distance between the end of one span of a curve and the start of the next one, at the

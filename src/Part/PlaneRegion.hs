@@ -122,6 +122,7 @@ combinedAtOnce name operation regions =
         { contourName = name,
           ends = Closed,
           elements = joinedElements (elementsOf sources (begunAtSource sources loop)),
+          breaks = [],
           writtenElements = []
         }
 
@@ -234,6 +235,7 @@ offsetBy at name (Mm d) contours
         { contourName = name,
           ends = Closed,
           elements = joinedElements (NonEmpty.zip (0 :| [1 ..]) (offsetElements at loop)),
+          breaks = [],
           writtenElements = []
         }
 

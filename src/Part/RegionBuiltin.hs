@@ -228,6 +228,7 @@ contourOfShape at name segments =
     { contourName = name,
       ends = Closed,
       elements = fmap element segments,
+      breaks = [],
       writtenElements = []
     }
   where

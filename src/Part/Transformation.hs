@@ -21,7 +21,12 @@ solid s body' = body' {outlines = map (onLeft . image s) (outlines body')}
 
 -- | The image of a contour. It is no longer the contour that the program writes.
 image :: Transformation -> Contour -> Contour
-image s c = c {elements = fmap moved (elements c), writtenElements = []}
+image s c =
+  c
+    { elements = fmap moved (elements c),
+      breaks = map (Transformation.point s) (breaks c),
+      writtenElements = []
+    }
   where
     moved e = e {segment = Transformation.segment s (segment e)}
 

@@ -1,5 +1,6 @@
 -- | The paths of the cutter's centre beside a contour: its offset, or the parts of the offset that
--- the cutter can follow where rest material is allowed.
+-- the cutter can follow where rest material is allowed. At the breaks of pieces ("Part.Break") rest
+-- material is always allowed.
 --
 -- Each pass of a statement computes the polyarc of the contour anew. A polyarc that the passes
 -- share would stay in memory from the first pass to the last one. The function is in a module of
@@ -13,10 +14,12 @@ import Base.Quantity (Mm (..), plus)
 import Base.Region (Located (..))
 import Data.List.NonEmpty (NonEmpty (..))
 import Data.List.NonEmpty qualified as NonEmpty
+import Data.Maybe (isJust)
 import Data.Vector (Vector)
 import Data.Vector qualified as Vector
 import Geometry.Carrier qualified as Carrier
 import Offset.Equidistant qualified as Equidistant
+import Part.Break qualified as Break
 import Part.Part (Contour (elements), Milling (contour, radius))
 import Part.Part qualified as Part
 import Toolpath.Error (Error (..), Unsupported (..))
@@ -54,7 +57,13 @@ paths (Located region milling) side numbered allowance = case side of
       ([], _) -> Left (NoPathAlong (keyword region) (contour milling) allowance)
       (_, []) -> Left (refusal obstacle)
       (p : ps, rests) -> Right (fmap Equidistant.pieces (p :| ps), rests)
-    (Left obstacle, Part.Refused) -> Left (refusal obstacle)
+    (Left obstacle, Part.Refused)
+      | null breaks || isJust (Part.controlCompensation milling) -> Left (refusal obstacle)
+      | otherwise -> case Equidistant.reachableFitting style s r polyarc of
+        ([], _) -> Left (refusal obstacle)
+        (p : ps, rests) -> case restsAtBreaks milling r breaks rests of
+          Left other -> Left (refusal (Equidistant.stop other))
+          Right listed -> Right (fmap Equidistant.pieces (p :| ps), listed)
   where
     polyarc = Part.polyarcOf (contour milling)
     r = plus (radius milling) allowance
@@ -69,4 +78,21 @@ paths (Located region milling) side numbered allowance = case side of
       | otherwise = allowanceOf . (numbered Vector.!)
     hasNoAllowances = all ((== Mm 0) . allowanceOf) numbered
     allowanceOf = Part.allowance . Part.finish
+    breaks = Break.breaksOf (contour milling)
     refusal = OffsetRefusal.refusal region (RestMaterial.toolOf milling allowance) numbered
+
+-- | The unreached parts of a contour that are listed, if all of them are at breaks of the contour:
+-- those at which more material stays than the tolerance allows. Otherwise the first part that is
+-- not at a break. @distance@ is that of the cutter's centre from the contour.
+restsAtBreaks ::
+  Milling ->
+  Mm ->
+  [Break.Break] ->
+  [Equidistant.UnreachedPart] ->
+  Either Equidistant.UnreachedPart [Equidistant.UnreachedPart]
+restsAtBreaks milling distance breaks rests = concat <$> traverse listed rests
+  where
+    listed rest = case Break.isLeftAt distance breaks (Equidistant.cutterCentre rest) of
+      Nothing -> Left rest
+      Just b -> Right [rest | Break.leftMaterial distance b > tolerated]
+    (_, tolerated) = Part.deviationLimits (Part.tolerance milling)

@@ -18,6 +18,8 @@ import Geometry.Tolerance qualified as Tolerance
 import Geometry.Vec qualified as Vec
 import Offset.Equidistant (Cause (..), Obstacle (..))
 import Offset.Equidistant qualified as Equidistant
+import Part.Break (Break)
+import Part.Break qualified as Break
 import Part.Part (Element)
 import Part.Part qualified as Part
 import Toolpath.Error (Error (ConcaveRadius), RestPosition (..), Tool (leaves))
@@ -34,16 +36,22 @@ refusal region tool elements (Obstacle cause largest) = case cause of
     Error.Collision region tool (elements ! i) (elements ! j) p (fitting tool largest)
 
 -- | The rest material, one entry for each unreached part of the contour. The index of an element in
--- @elements@ is the number by which the unreached parts name it.
+-- @elements@ is the number by which the unreached parts name it. @breaks@ are the breaks of the
+-- contour, and @distance@ is that of the cutter's centre from it.
 restPositions ::
   Functor f =>
   Tool ->
+  Mm ->
+  [Break] ->
   Vector Element ->
   f Equidistant.UnreachedPart ->
   f RestPosition
-restPositions tool elements = fmap restPosition
+restPositions tool distance breaks elements = fmap restPosition
   where
-    restPosition rest = case cause (Equidistant.stop rest) of
+    restPosition rest = case Break.isLeftAt distance breaks (Equidistant.cutterCentre rest) of
+      Just b -> AtBreak (Break.before b) (Break.vertex b) (Break.leftMaterial distance b)
+      Nothing -> elsewhere rest
+    elsewhere rest = case cause (Equidistant.stop rest) of
       InnerCorner i j p -> InCorner (elements ! i) (elements ! j) p
       Concave i old -> InConcaveArc (elements ! i) old (largest' rest)
       Collision i j _ -> case onlyCorner i j of

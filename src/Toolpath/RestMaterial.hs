@@ -15,6 +15,7 @@ import Data.Maybe (mapMaybe)
 import Data.Set qualified as Set
 import Data.Vector qualified as Vector
 import Offset.Equidistant (UnreachedPart)
+import Part.Break qualified as Break
 import Part.Part (Contour, Milling)
 import Part.Part qualified as Part
 import Toolpath.Error (RestPosition, Tool (..))
@@ -76,13 +77,15 @@ remaining word milling islands pass rests =
       { word,
         tool,
         walls,
-        positions = NonEmpty.zip (OffsetRefusal.restPositions tool elements rests) rests,
+        positions = NonEmpty.zip (positionsOf rests) rests,
         offsetDistance = reach pass
       }
   )
   where
     tool = toolOf milling (Toolpath.left pass)
     walls = Part.contour milling :| islands
+    positionsOf = OffsetRefusal.restPositions tool (reach pass) breaks elements
+    breaks = concatMap Break.breaksOf (NonEmpty.toList walls)
     elements = Vector.fromList (concatMap (NonEmpty.toList . Part.elements) walls)
 
 -- | The cutter of a statement, with the allowance that a pass leaves.

@@ -67,6 +67,9 @@ data RestPosition
     InCorner Element Element Point
   | -- | in a concave arc of this radius
     InConcaveArc Element Mm ~(Maybe Mm)
+  | -- | at the break of a contour behind an element; the point is the vertex, and the number the
+    -- thickness of the material there
+    AtBreak Element Point Mm
   | -- | between two elements; the point is the position of the centre at which the cutter touches
     -- both
     Between Element Element Point ~(Maybe Mm)
@@ -87,7 +90,11 @@ warningReport unit warning = case warning of
           map (restPositionText unit tool) (take shown stays)
             <> ["And at " <> positions (length stays - shown) <> " more." | length stays > shown],
         hints =
-          ["Take a smaller cutter afterwards, or leave rest allowed out to have this refused."]
+          if all isAtBreak stays
+            then ["Take a smaller cutter, or let the distance change over a longer stretch."]
+            else
+              [ "Take a smaller cutter afterwards, or leave rest allowed out to have this refused."
+              ]
       }
   RapidThroughPart region move (Located named contour) ->
     (report Report.Warning "W0402" (InSource region) "this rapid move goes through the part")
@@ -147,12 +154,18 @@ warningReport unit warning = case warning of
       }
   where
     shown = 8
+    isAtBreak s = case s of
+      AtBreak {} -> True
+      InCorner {} -> False
+      InConcaveArc {} -> False
+      Between {} -> False
     positions n = if n == 1 then "one place" else Decimal.whole n <> " places"
     distinct ls = case ls of
       [] -> []
       l : more -> l : distinct (filter (/= l) more)
     labels s = case s of
       InCorner a _ _ -> [Label (origin a) "in the corner behind this"]
+      AtBreak a _ _ -> [Label (origin a) "where its distance begins or ends to change"]
       InConcaveArc a _ _ -> [Label (origin a) "in this hollow"]
       Between a b _ _ -> [Label (origin a) "beside this", Label (origin b) "beside this"]
 
@@ -187,6 +200,12 @@ rapidIntoMaterial unit region (SpacePoint p z) material uncleared advice =
 restPositionText :: LengthUnit -> Tool -> RestPosition -> Text
 restPositionText unit tool s = case s of
   InCorner _ _ p -> "In the inner corner at " <> Vec.toText unit 3 p <> "."
+  AtBreak _ p thick ->
+    "At the break at "
+      <> Vec.toText unit 3 p
+      <> ", where the distance of a piece begins or ends to change. The material is "
+      <> Decimal.inUnit unit thick
+      <> " thick."
   InConcaveArc a old largest ->
     "In the concave radius of "
       <> Decimal.inUnit unit old

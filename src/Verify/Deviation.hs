@@ -24,6 +24,7 @@ import Geometry.Index.BoundingBox qualified as BoundingBox
 import Geometry.Index.BoxTree qualified as BoxTree
 import Geometry.Tolerance qualified as Tolerance
 import Machine.Machine qualified as Machine
+import Part.Break qualified as Break
 import Part.Part (Milling)
 import Part.Part qualified as Part
 import Verify.ContactMeasure qualified as ContactMeasure
@@ -299,12 +300,21 @@ missedOn onPass MillingPass {job} allowed bounds cutting
           job {reach = distance, allowance = allowed}
           bounds
           index
-          (if allowsRest job then concatMap (touchable distance) es else es)
+          (concatMap (\e -> if mayKeep distance e then touchable distance e else [e]) es)
         | (own, es) <- groups,
           let distance = plus (reach job) own
       ]
   where
     groups = byAllowance (BoxTree.toList (edges job))
+    -- True of an element at which the cutter may leave material: of every element if the statement
+    -- allows rest material, otherwise of those beside a break.
+    mayKeep distance e =
+      allowsRest job
+        || or
+          [ Break.besideBreak demanded distance breaks (Part.segment (element e))
+            | Just demanded <- [side job]
+          ]
+    breaks = Break.breaksOf (Part.contour (milling job))
     -- Parts that the cutter can touch with its centre at this distance from the element.
     touchable = case side job of
       Nothing -> \_ e -> [e]

@@ -88,6 +88,7 @@ winding = Generate.partOf (Vec.point (-40) 0) (Part.Mill (Located (Region 0 0) j
               (Located (Region 0 0) (Name "c"))
               Open
               (NonEmpty.fromList (Curve.elements [[ahead], along, [behind]]))
+              []
               [],
           Part.approach = []
         }

@@ -146,6 +146,7 @@ pocketing before p =
         Polyarc.Closed
         (fmap (\s -> Part.Element s (Region 0 0) Part.plainFinish False False Nothing) loop)
         []
+        []
 
 -- | The toolpath of a pocket, if the cutter has room in it.
 toolpathOf :: Pocketing -> Maybe Toolpath

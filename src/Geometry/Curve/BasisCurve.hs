@@ -24,8 +24,11 @@ module Geometry.Curve.BasisCurve
     arcLength,
     chords,
     fractions,
+    CurvePosition (..),
     SpanPoint (..),
     spanPoint,
+    spanPointAt,
+    lengthTo,
     expansion,
     reversed,
     inReverseOrder,
@@ -435,30 +438,44 @@ count base = case spanList base of
 arcLength :: BasisCurve -> ArcLength
 arcLength = lengthTable
 
--- | Position on a curve, at @parameter@ on the whole curve. @number@ is the index, from 0, of the
--- span in which the position lies; @local@ is its parameter within this span, from 0 to 1.
--- @approach@ is the side from which the position is approached: from smaller parameters ('Before')
--- or from larger ones ('After').
-data SpanPoint = SpanPoint
-  { parameter :: Double,
-    number :: Int,
-    local :: Double,
-    approach :: Approach
-  }
+-- | Position on a curve. @approach@ is the side from which it is approached: from smaller
+-- parameters ('Before') or from larger ones ('After'). The formulas that hold at the parameter
+-- @home@, on this side of it, give the point at @parameter@. Both parameters are mostly equal. They
+-- differ where a part of a curve is continued beyond a corner; then @home@ is that of the corner.
+data CurvePosition = CurvePosition {parameter :: Double, home :: Double, approach :: Approach}
   deriving stock (Eq, Show)
 
--- | Position with the parameter @u@: the span that contains it, and the local parameter in this
--- span. At a joint of two spans it lies in the earlier span for 'Before' and in the later one for
--- 'After'. A parameter outside of the base gives the nearer end.
+-- | Point of a span: the index of the span, from 0, and the parameter within this span. It lies
+-- from 0 to 1, or outside if the span is continued beyond its ends.
+data SpanPoint = SpanPoint {number :: Int, local :: Double}
+  deriving stock (Eq, Show)
+
+-- | Point of a span with the parameter @u@ on the whole base. At a joint of two spans it lies in
+-- the earlier span for 'Before' and in the later one for 'After'. A parameter outside of the base
+-- gives the nearer end.
 spanPoint :: Approach -> Double -> BasisCurve -> SpanPoint
-spanPoint approach u base =
-  SpanPoint {parameter, number, local = parameter - fromIntegral number, approach}
+spanPoint approach u base = spanPointAt CurvePosition {parameter, home = parameter, approach} base
   where
-    n = count base
-    parameter = max 0 (min (fromIntegral n) u)
+    parameter = max 0 (min (fromIntegral (count base)) u)
+
+-- | Point of the span that contains the home of a position.
+spanPointAt :: CurvePosition -> BasisCurve -> SpanPoint
+spanPointAt CurvePosition {parameter, home, approach} base =
+  SpanPoint {number, local = parameter - fromIntegral number}
+  where
     number = case approach of
-      After -> min (n - 1) (truncate parameter)
-      Before -> max 0 (ceiling parameter - 1)
+      After -> max 0 (min (count base - 1) (truncate (home + Tolerance.sameParameter)))
+      Before -> max 0 (min (count base - 1) (ceiling (home - Tolerance.sameParameter) - 1))
+
+-- | Arc length in mm from the start of a base to a point of a span. Beyond the ends of the span it
+-- is that of the continued span.
+lengthTo :: BasisCurve -> SpanPoint -> Double
+lengthTo base SpanPoint {number, local}
+  | inside == local = upTo
+  | otherwise = upTo + ArcLength.integral (speedAt base number) inside local
+  where
+    inside = max 0 (min 1 local)
+    Mm upTo = ArcLength.lengthAt (arcLength base) (fromIntegral number + inside)
 
 -- | Taylor expansion of the point of a base, in mm, about the position @s@, up to the power @n@ of
 -- the parameter.

@@ -137,7 +137,7 @@ series n base c spanPoint = case interpolation c of
         let ahead = Spline.series 1 (Spline.at cubics i) t
             rise = PowerSeries.coefficient 1 ahead
          in [PowerSeries.value ahead - rise * t, rise]
-      Mm currentLength = ArcLength.lengthAt (BasisCurve.arcLength base) (parameter spanPoint)
+      currentLength = BasisCurve.lengthTo base spanPoint
       i = intervalAt currentLength stations
       from = stations Unboxed.! i
       width = stations Unboxed.! (i + 1) - from

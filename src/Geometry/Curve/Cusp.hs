@@ -70,24 +70,16 @@ cuspOfLayer top lower whole
   where
     (stretch, parameter, overshoot) =
       maximumBy (comparing (\(_, _, g) -> g)) (concatMap candidates (PointSearch.stretches whole))
-    expansion =
-      ShiftedCurve.expansionAt 1 lower (PointSearch.positionWithin stretch whole parameter)
-    d =
-      PowerSeries.value
-        ( ShiftedCurve.distanceAt
-            0
-            top
-            lower
-            expansion
-            (PointSearch.positionWithin stretch whole parameter)
-        )
+    (expansion, distance) =
+      ShiftedCurve.shiftAt 0 top lower (PointSearch.positionWithin stretch whole parameter)
+    d = PowerSeries.value distance
     -- Candidates for the maximum of @d·κ@ on a stretch: the samples, the maxima between them, and
     -- the minima of the speed of @lower@, near which the curvature is large. Each has the stretch,
     -- the parameter, and the value of @d·κ@ at this parameter. The value is infinite where that
     -- speed is 0, unless d is 0 there.
     candidates s =
       [ (s, u, shareAt s u)
-        | u <- PointSearch.samples s <> maxima s <> speedMinima lower whole s
+        | u <- PointSearch.samples s <> maxima s <> speedMinima top lower whole s
       ]
     shareAt s u = let (g, _) = productAt s 0 u in g
     productAt s n u =
@@ -101,14 +93,14 @@ cuspOfLayer top lower whole
         [(u, fst (slopes (snd (productAt s 1 u)))) | u <- PointSearch.samples s]
 
 -- | Parameters, within a stretch of @whole@, of the local minima of the speed of @lower@. @whole@
--- is the curve that results from a shift of @lower@.
-speedMinima :: Curve -> Curve -> (Double, Double) -> [Double]
-speedMinima lower whole stretch =
+-- is the curve that results from the shift @top@ of @lower@.
+speedMinima :: Layer -> Curve -> Curve -> (Double, Double) -> [Double]
+speedMinima top lower whole stretch =
   RootFinding.rising slope [(u, fst (slope u)) | u <- PointSearch.samples stretch]
   where
     slope u =
-      let V2 a b =
-            ShiftedCurve.expansionAt 3 lower (PointSearch.positionWithin stretch whole u)
+      let (V2 a b, _) =
+            ShiftedCurve.shiftAt 2 top lower (PointSearch.positionWithin stretch whole u)
        in slopes
             ( PowerSeries.add
                 (square (PowerSeries.derivative a))
@@ -130,5 +122,4 @@ productSeries n top lower whole stretch u
   | otherwise = (d, False)
   where
     s = PointSearch.positionWithin stretch whole u
-    expansion = ShiftedCurve.expansionAt (n + 2) lower s
-    d = ShiftedCurve.distanceAt n top lower expansion s
+    (expansion, d) = ShiftedCurve.shiftAt (n + 1) top lower s

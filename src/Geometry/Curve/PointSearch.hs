@@ -23,7 +23,7 @@ import Base.Crash qualified as Crash
 import Base.Quantity (Mm (..), Rad (..), plus, times)
 import Data.List (minimumBy)
 import Data.Ord (comparing)
-import Geometry.Curve.BasisCurve (SpanPoint)
+import Geometry.Curve.BasisCurve (CurvePosition)
 import Geometry.Curve.ShiftedCurve (Curve (..))
 import Geometry.Curve.ShiftedCurve qualified as ShiftedCurve
 import Geometry.Numeric.PowerSeries qualified as PowerSeries
@@ -52,8 +52,8 @@ sampleSteps = 8
 
 -- | Position at parameter @u@ of a stretch, approached from within the stretch. At a corner, the
 -- direction is therefore that of this stretch.
-positionWithin :: (Double, Double) -> Curve -> Double -> SpanPoint
-positionWithin (_, b) curve u = ShiftedCurve.spanPoint (if u >= b then Before else After) u curve
+positionWithin :: (Double, Double) -> Curve -> Double -> CurvePosition
+positionWithin (_, b) curve u = ShiftedCurve.position (if u >= b then Before else After) u curve
 
 -- | Parameter of the curve's point that is nearest to point @p@. If several points are equally
 -- near, samples are preferred to other points, then smaller parameters to larger ones.
@@ -166,7 +166,7 @@ atX abscissa curve = distinct (concatMap found (stretches curve))
     resolution = 1e-3 / fromIntegral sampleSteps
     isThere u =
       let V2 a _ =
-            ShiftedCurve.expansionAt 0 curve (ShiftedCurve.spanPoint After u curve)
+            ShiftedCurve.expansionAt 0 curve (ShiftedCurve.position After u curve)
        in deviation (PowerSeries.value a) == 0
 
 -- | Merge of two ascending lists.
@@ -196,7 +196,7 @@ isClosed curve = Vec.isNear (end After 0) (end Before (ShiftedCurve.domain curve
   where
     end approach u =
       TaylorExpansion.position
-        (ShiftedCurve.expansionAt 0 curve (ShiftedCurve.spanPoint approach u curve))
+        (ShiftedCurve.expansionAt 0 curve (ShiftedCurve.position approach u curve))
 
 -- | Unit tangent just before or just after parameter @u@. The start and the end of a closed curve
 -- are one point: 'Before' the start gives the tangent at the end, and 'After' the end gives that at
@@ -222,4 +222,4 @@ unitTangent approach curve u = case TaylorExpansion.direction approach (expansio
       Shifted _ lower _ -> unitTangent approach lower u
       Unshifted _ -> Crash.bug "a span that is a point"
   where
-    expansion n = ShiftedCurve.expansionAt n curve (ShiftedCurve.spanPoint approach u curve)
+    expansion n = ShiftedCurve.expansionAt n curve (ShiftedCurve.position approach u curve)

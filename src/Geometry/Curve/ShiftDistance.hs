@@ -22,7 +22,7 @@ module Geometry.Curve.ShiftDistance
 where
 
 import Base.Quantity (Mm (..), minus, plus, times)
-import Geometry.Curve.BasisCurve (BasisCurve, SpanPoint (..))
+import Geometry.Curve.BasisCurve (BasisCurve, CurvePosition (..), SpanPoint)
 import Geometry.Curve.BasisCurve qualified as BasisCurve
 import Geometry.Curve.Column (Column)
 import Geometry.Curve.Column qualified as Column
@@ -32,6 +32,7 @@ import Geometry.Numeric.PowerSeries (PowerSeries)
 import Geometry.Numeric.PowerSeries qualified as PowerSeries
 import Geometry.Numeric.TaylorExpansion (Approach (..), TaylorExpansion)
 import Geometry.Numeric.TaylorExpansion qualified as TaylorExpansion
+import Geometry.Tolerance qualified as Tolerance
 
 -- | Distance of a shift as a function of the position on the curve.
 data Distance
@@ -129,7 +130,7 @@ knots base distance = case distance of
 
 -- | True if a distance is 0 at a position and near it, as outside of a joggle. Then the curve need
 -- not be shifted there.
-vanishes :: Distance -> SpanPoint -> Bool
+vanishes :: Distance -> CurvePosition -> Bool
 vanishes distance position = case distance of
   Joggled Joggle {begins, ends} -> not (position `isPast` begins) || position `isPast` ends
   Square _ inner -> vanishes inner position
@@ -138,34 +139,48 @@ vanishes distance position = case distance of
   Bevelled {} -> False
   Growing _ -> False
 
--- | Properties of the curve that is shifted: its base, its arc length, and its Taylor expansion
--- about a position. The arc length is evaluated only for distances that depend on it.
-data CurveBelow = CurveBelow {under :: BasisCurve, along :: ~ArcLength, near :: TaylorExpansion}
+-- | Properties of the curve that is shifted: its base, its arc length, its Taylor expansion about a
+-- position, and the point of the base below it. The arc lengths are evaluated only for distances
+-- that depend on them.
+data CurveBelow = CurveBelow
+  { under :: BasisCurve,
+    along :: ~ArcLength,
+    -- | arc length in mm from the position's home to its parameter; 0 if both are equal
+    beyond :: ~Double,
+    near :: TaylorExpansion,
+    -- | the position's point on the base
+    onBase :: SpanPoint,
+    -- | derivative of the parameter of the base by that of the curve
+    baseRate :: Double
+  }
 
 -- | Power series of the distance in mm about a position, up to the power @n@ of the parameter. The
 -- expansion in @below@ must go at least to the power @n@.
-series :: Int -> CurveBelow -> ShiftInterval -> Distance -> SpanPoint -> PowerSeries
+series :: Int -> CurveBelow -> ShiftInterval -> Distance -> CurvePosition -> PowerSeries
 series n below interval distance position = case distance of
   Constant (Mm h) -> PowerSeries.constant n h
-  Pointwise c -> Column.series n (under below) c position
+  Pointwise c -> columnSeries c
   Bevelled mu height (Mm delta) ->
     PowerSeries.plusConstant
       delta
       ( PowerSeries.multiply
-          (Column.series n (under below) height position)
-          (PowerSeries.tangent (Column.series n (under below) mu position))
+          (columnSeries height)
+          (PowerSeries.tangent (columnSeries mu))
       )
   Growing growth -> growthSeries n below interval growth position
   Square mu inner ->
     PowerSeries.divide
       (series n below interval inner position)
-      (PowerSeries.cosine (Column.series n (under below) mu position))
+      (PowerSeries.cosine (columnSeries mu))
   Joggled joggle -> joggleSeries n below interval joggle position
+  where
+    columnSeries c =
+      PowerSeries.stretched (baseRate below) (Column.series n (under below) c (onBase below))
 
 -- | Power series of the distance of a growth from h₁ to h₂, up to the power @n@. Let s be the arc
 -- length from the start of the growth, and S the arc length of the whole growth. Within the growth,
 -- the distance is @h₁ + (h₂ − h₁)·s/S@ (Kolsanova, cipher 1).
-growthSeries :: Int -> CurveBelow -> ShiftInterval -> Growth -> SpanPoint -> PowerSeries
+growthSeries :: Int -> CurveBelow -> ShiftInterval -> Growth -> CurvePosition -> PowerSeries
 growthSeries n below interval Growth {from = Mm h1, to = Mm h2, between} position = case between of
   Nothing -> inside
   Just _ -> case marksBefore position (marks interval) of
@@ -189,7 +204,7 @@ growthSeries n below interval Growth {from = Mm h1, to = Mm h2, between} positio
 -- absolute value of the depth, and t the arc length from the outer end of a ramp of length ℓ. The
 -- distance is @r − √(r² − t²)@ up to the middle of the ramp, then @d − (r − √(r² − (ℓ − t)²))@. It
 -- is d between the ramps. For a negative depth, it has the opposite sign.
-joggleSeries :: Int -> CurveBelow -> ShiftInterval -> Joggle -> SpanPoint -> PowerSeries
+joggleSeries :: Int -> CurveBelow -> ShiftInterval -> Joggle -> CurvePosition -> PowerSeries
 joggleSeries n below interval joggle@Joggle {depth = Mm depth, radius = Mm r} position =
   PowerSeries.scale (signum depth) $
     case marksBefore position (marks interval) of
@@ -226,24 +241,25 @@ joggleSeries n below interval joggle@Joggle {depth = Mm depth, radius = Mm r} po
 
 -- | Power series about the position, up to the power @n@. It gives the arc length in mm from the
 -- start of the curve below to a point near the position.
-lengthSeries :: Int -> CurveBelow -> SpanPoint -> PowerSeries
+lengthSeries :: Int -> CurveBelow -> CurvePosition -> PowerSeries
 lengthSeries n below position = case n of
   0 -> PowerSeries.constant 0 runLength
   _ -> PowerSeries.integral runLength (TaylorExpansion.speed (near below))
   where
-    Mm runLength = ArcLength.lengthAt (along below) (parameter position)
+    Mm upToHome = ArcLength.lengthAt (along below) (home position)
+    runLength = upToHome + beyond below
 
 -- | Count of the given marks (parameters) before a position. It tells which formula gives the
 -- distance at this position.
-marksBefore :: SpanPoint -> [Double] -> Int
+marksBefore :: CurvePosition -> [Double] -> Int
 marksBefore position = length . filter (position `isPast`)
 
--- | True if the position is past the parameter @mark@. A position at @mark@ itself counts as past
--- if it is approached from larger parameters, otherwise as not past.
-isPast :: SpanPoint -> Double -> Bool
+-- | True if the home of a position is past the parameter @mark@. A position at @mark@ itself counts
+-- as past if it is approached from larger parameters, otherwise as not past.
+isPast :: CurvePosition -> Double -> Bool
 isPast position mark = case approach position of
-  After -> mark <= parameter position
-  Before -> mark < parameter position
+  After -> mark <= home position + Tolerance.sameParameter
+  Before -> mark < home position - Tolerance.sameParameter
 
 -- | Distance for a curve that is scaled by the factor @k@, given the scaled base. Angles do not
 -- change.

@@ -1,6 +1,16 @@
 -- | Curves: a base curve with any number of shifts, each of which is a layer on top of the curve
 -- below. They are evaluated by power series through all layers. A span is a part of the base on
 -- which one formula gives the points. The parameter of a curve rises by 1 over each span.
+--
+-- A shift can make corners, for example where a change of distance begins or ends. The next shift
+-- joins its two parts at such a corner, unless the corner is slight. Each part is moved as if the
+-- curve below were continued beyond the corner by the formulas that hold before it or after it, and
+-- both parts end where they meet. So the corner remains a corner: on its outer side the parts are
+-- longer, on its inner side shorter. The corner keeps its parameter in all layers. In order that it
+-- can, the parameters of the two parts beside it are stretched a little ('StretchedPart'). At a
+-- slight corner, one that turns by at most 'Tolerance.kink', both parts may be nearly parallel
+-- after the shift, so that they meet far away or nowhere. There the normals are turned instead
+-- ('NormalTurns').
 module Geometry.Curve.ShiftedCurve
   ( Curve (..),
     Layer (..),
@@ -10,19 +20,22 @@ module Geometry.Curve.ShiftedCurve
     layers,
     breaks,
     arcLength,
-    spanPoint,
+    position,
+    footing,
     expansionAt,
-    distanceAt,
+    shiftAt,
+    joinedCorners,
     domain,
   )
 where
 
-import Base.Quantity (Rad (..))
-import Data.List (zip4)
+import Base.Quantity (Mm (..), Rad (..))
+import Data.List (find, zip4, zipWith4)
 import Data.Map.Strict (Map)
 import Data.Map.Strict qualified as Map
+import Data.Maybe (fromMaybe, mapMaybe)
 import Geometry.Carrier (Side (..))
-import Geometry.Curve.BasisCurve (BasisCurve, SpanPoint (..))
+import Geometry.Curve.BasisCurve (BasisCurve, CurvePosition (..), SpanPoint)
 import Geometry.Curve.BasisCurve qualified as BasisCurve
 import Geometry.Curve.ShiftDistance (CurveBelow (..), Distance, ShiftInterval)
 import Geometry.Curve.ShiftDistance qualified as ShiftDistance
@@ -44,13 +57,15 @@ data Curve
     Shifted Layer Curve ~ArcLength
   deriving stock (Eq, Show)
 
--- | One shift: its side, its distance, the interval over which the distance changes, and the turns
--- of the normals beside slight corners.
+-- | One shift: its side, its distance, the interval over which the distance changes, the turns of
+-- the normals beside slight corners, and the parts beside other corners whose parameters are
+-- stretched.
 data Layer = Layer
   { side :: Side,
     distance :: Distance,
     interval :: ~ShiftInterval,
-    turns :: ~NormalTurns
+    turns :: ~NormalTurns,
+    stretched :: ~StretchedParts
   }
   deriving stock (Eq, Show)
 
@@ -67,7 +82,26 @@ instance Show NormalTurns where
 
 -- | Last parameter of a smooth stretch, and the angles in radians, counter-clockwise, by which the
 -- normals at its begin and at its end are turned.
-data TurnedStretch = TurnedStretch {end :: Double, atBegin :: Double, atEnd :: Double}
+data TurnedStretch = TurnedStretch {upTo :: Double, atBegin :: Double, atEnd :: Double}
+
+-- | Stretched parts of a shifted curve, by their first parameters.
+newtype StretchedParts = StretchedParts (Map Double StretchedPart)
+
+-- | All stretched parts compare equal: the shift and its curve determine them.
+instance Eq StretchedParts where
+  _ == _ = True
+
+instance Show StretchedParts where
+  show _ = "StretchedParts"
+
+-- | Part of a shifted curve from the parameter @begin@ to @end@. The parameters @from@ and @to@ of
+-- the curve below belong to its ends, and in between the parameters are proportional. @first@ and
+-- @final@ are the ends of the smooth run of the curve below in which the part lies. @from@ may lie
+-- before @first@, and @to@ after @final@; there the run is continued.
+data StretchedPart = StretchedPart
+  { begin, end, from, to :: Double,
+    first, final :: Double
+  }
 
 -- | Curve @lower@ moved along its normal to a side. The distance is a function of the position on
 -- @lower@.
@@ -76,15 +110,22 @@ shifted side distance lower = whole
   where
     whole =
       Shifted
-        Layer
-          { side,
-            distance,
-            interval = ShiftDistance.intervalOf (arcLength lower) distance,
-            turns = turnsOf lower
-          }
+        layer
         lower
         (ArcLength.fromSpeed speed (merge (breaks whole) (knots whole)))
-    speed u = Vec.norm (TaylorExpansion.velocity (expansionAt 1 whole (spanPoint After u whole)))
+    layer =
+      Layer
+        { side,
+          distance,
+          interval = ShiftDistance.intervalOf (arcLength lower) distance,
+          turns = turnsOf lower,
+          stretched = stretchedParts layer lower
+        }
+    speed u = speedAt whole (position After u whole)
+
+-- | Speed in mm per unit of the parameter.
+speedAt :: Curve -> CurvePosition -> Double
+speedAt curve s = Vec.norm (TaylorExpansion.velocity (expansionAt 1 curve s))
 
 -- | Base, the unshifted curve below all shifts.
 base :: Curve -> BasisCurve
@@ -106,7 +147,7 @@ breaks :: Curve -> [Double]
 breaks curve = case curve of
   Unshifted b -> map fromIntegral [0 .. BasisCurve.count b]
   Shifted layer lower _ ->
-    merge (breaks lower) (filter isInside (ShiftDistance.marks (interval layer)))
+    raised layer (merge (breaks lower) (filter isInside (ShiftDistance.marks (interval layer))))
   where
     isInside u = u > 0 && u < domain curve
 
@@ -118,7 +159,9 @@ knots :: Curve -> [Double]
 knots curve = case curve of
   Unshifted _ -> []
   Shifted layer lower _ ->
-    merge (knots lower) (filter isInside (ShiftDistance.knots (base lower) (distance layer)))
+    raised
+      layer
+      (merge (knots lower) (filter isInside (ShiftDistance.knots (base lower) (distance layer))))
   where
     isInside u = u > 0 && u < domain curve
 
@@ -142,41 +185,77 @@ arcLength curve = case curve of
   Unshifted b -> BasisCurve.arcLength b
   Shifted _ _ along -> along
 
--- | Position with the parameter @u@: the span of the base that contains it, and the local
--- parameter, from 0 to 1, in this span. At a joint of two spans it lies in the earlier span for
+-- | Position with the parameter @u@. At a joint of two spans it lies in the earlier span for
 -- 'Before' and in the later one for 'After'. A parameter outside of the domain gives the nearer
 -- end.
-spanPoint :: Approach -> Double -> Curve -> SpanPoint
-spanPoint approach u curve = BasisCurve.spanPoint approach u (base curve)
+position :: Approach -> Double -> Curve -> CurvePosition
+position approach u curve = CurvePosition {parameter, home = parameter, approach}
+  where
+    parameter = max 0 (min (domain curve) u)
+
+-- | Point of the base from which the shifts have moved the curve's point at a position, and the
+-- derivative there of the parameter of the base by that of the curve.
+footing :: Curve -> CurvePosition -> (SpanPoint, Double)
+footing curve s = case curve of
+  Unshifted b -> (BasisCurve.spanPointAt s b, 1)
+  Shifted layer lower _ ->
+    let (foot, k) = footing lower (below layer s)
+     in (foot, k * rate layer s)
 
 -- | Taylor expansion of the curve's point, in mm, about the position @s@, up to the power @n@ of
 -- the parameter. To evaluate a shift, the curve below is expanded to one power more, except where
 -- the shift's distance is identically 0.
-expansionAt :: Int -> Curve -> SpanPoint -> TaylorExpansion
+expansionAt :: Int -> Curve -> CurvePosition -> TaylorExpansion
 expansionAt n curve s = case curve of
-  Unshifted b -> BasisCurve.expansion n b s
-  Shifted layer lower _
-    | ShiftDistance.vanishes (distance layer) s -> expansionAt n lower s
-    | otherwise ->
-      let near =
-            expansionAt (n + 1) lower s
-       in TaylorExpansion.offset (turnAt n (turns layer) s) (distanceAt n layer lower near s) near
+  Unshifted b -> BasisCurve.expansion n b (BasisCurve.spanPointAt s b)
+  Shifted layer lower _ ->
+    fmap (PowerSeries.stretched (rate layer s)) (movedAt n layer lower (below layer s))
 
--- | Power series of a shift's distance in mm, positive to the left, about a position. The arguments
--- are the highest power, the shift, the curve below, the expansion of that curve about the
--- position, and the position.
-distanceAt :: Int -> Layer -> Curve -> TaylorExpansion -> SpanPoint -> PowerSeries
+-- | Taylor expansion of the point to which a shift moves the position @s@ of the curve below it.
+-- Its parameter is that of the curve below.
+movedAt :: Int -> Layer -> Curve -> CurvePosition -> TaylorExpansion
+movedAt n layer lower s
+  | ShiftDistance.vanishes (distance layer) s = expansionAt n lower s
+  | otherwise =
+    let near = expansionAt (n + 1) lower s
+     in TaylorExpansion.offset (turnAt n (turns layer) s) (distanceAt n layer lower near s) near
+
+-- | Expansion of the curve below a shift about a position of the shifted curve, up to the power
+-- @n + 1@, and the shift's distance there in mm, positive to the left, as a power series up to the
+-- power @n@. The parameter is that of the shifted curve.
+shiftAt :: Int -> Layer -> Curve -> CurvePosition -> (TaylorExpansion, PowerSeries)
+shiftAt n layer lower s =
+  ( fmap (PowerSeries.stretched k) near,
+    PowerSeries.stretched k (distanceAt n layer lower near s')
+  )
+  where
+    s' = below layer s
+    k = rate layer s
+    near = expansionAt (n + 1) lower s'
+
+-- | Power series of a shift's distance in mm, positive to the left, about a position of the curve
+-- below. The arguments are the highest power, the shift, the curve below, the expansion of that
+-- curve about the position, and the position.
+distanceAt :: Int -> Layer -> Curve -> TaylorExpansion -> CurvePosition -> PowerSeries
 distanceAt n layer lower near s = case side layer of
   LeftOf -> d
   RightOf -> PowerSeries.scale (-1) d
   where
-    d =
-      ShiftDistance.series
-        n
-        CurveBelow {under = base lower, along = arcLength lower, near}
-        (interval layer)
-        (distance layer)
-        s
+    d = ShiftDistance.series n curveBelow (interval layer) (distance layer) s
+    curveBelow =
+      CurveBelow
+        { under = base lower,
+          along = arcLength lower,
+          beyond,
+          near,
+          onBase,
+          baseRate
+        }
+    (onBase, baseRate) = footing lower s
+    beyond
+      | parameter s == home s = 0
+      | otherwise =
+        ArcLength.integral (\u -> speedAt lower s {parameter = u}) (home s) (parameter s)
 
 -- Normals beside slight corners -------------------------------------------------------------------
 
@@ -187,48 +266,209 @@ turnsOf :: Curve -> NormalTurns
 turnsOf curve =
   NormalTurns
     ( Map.fromDistinctAscList
-        [ (a, TurnedStretch {end = b, atBegin = -(before / 2), atEnd = after / 2})
+        [ (a, TurnedStretch {upTo = b, atBegin = -(before / 2), atEnd = after / 2})
           | (a, b, before, after) <- zip4 bs (drop 1 bs) corners (drop 1 corners),
             before /= 0 || after /= 0
         ]
     )
   where
     bs = breaks curve
-    seam = slightCorner (lastUnit, firstUnit)
-    corners = [seam] <> map (\u -> slightCorner (unit Before u, unit After u)) inner <> [seam]
-    inner = drop 1 (take (length bs - 1) bs)
-    (firstUnit, lastUnit)
-      | Vec.isNear (point After 0) (point Before (domain curve)) =
-        (unit After 0, unit Before (domain curve))
-      | otherwise = (Nothing, Nothing)
-    point approach u = TaylorExpansion.position (expansionAt 0 curve (spanPoint approach u curve))
-    unit approach u =
-      TaylorExpansion.direction approach (expansionAt 1 curve (spanPoint approach u curve))
+    seam = ifSlight (ofCurve (seamOf curve))
+    corners = [seam] <> map (ifSlight . ofCurve . turnOf curve) (innerBreaks curve) <> [seam]
+    ifSlight a = if isSlight a then a else 0
 
--- | Angle in radians between two directions, counter-clockwise, if it is that of a slight corner.
--- Otherwise 0, also if there is no direction.
-slightCorner :: (Maybe Vec, Maybe Vec) -> Double
-slightCorner directions = case directions of
-  (Just before, Just after)
-    | Rad a <- Vec.signedAngle before after,
-      Rad (abs a) > Tolerance.smoothAngle,
-      Rad (abs a) <= Tolerance.kink ->
-      a
-  _ -> 0
+-- | True for the angle in radians of a slight corner.
+isSlight :: Double -> Bool
+isSlight a = Rad (abs a) > Tolerance.smoothAngle && Rad (abs a) <= Tolerance.kink
 
 -- | Turn of the normal about a position as a power series up to the power @n@, in radians. Nothing
 -- if the normal is not turned.
-turnAt :: Int -> NormalTurns -> SpanPoint -> Maybe PowerSeries
+turnAt :: Int -> NormalTurns -> CurvePosition -> Maybe PowerSeries
 turnAt n (NormalTurns stretches) s
   | Map.null stretches = Nothing
-  | otherwise = case found (parameter s) stretches of
-    Just (a, TurnedStretch {end, atBegin, atEnd})
-      | parameter s <= end ->
-        let slope = (atEnd - atBegin) / (end - a)
+  | otherwise = case lookupHome s stretches of
+    Just (a, TurnedStretch {upTo, atBegin, atEnd})
+      | home s <= upTo ->
+        let slope = (atEnd - atBegin) / (upTo - a)
          in Just (PowerSeries.fromList n [atBegin + slope * (parameter s - a), slope])
     _ -> Nothing
+
+-- | Entry of the last parameter that is not after the home of a position. At a parameter itself,
+-- the approach decides. A position before the start of the curve is at its start.
+lookupHome :: CurvePosition -> Map Double a -> Maybe (Double, a)
+lookupHome s = case approach s of
+  Before | home s > 0 -> Map.lookupLT (home s)
+  _ -> Map.lookupLE (home s)
+
+-- Corners that a shift joins ----------------------------------------------------------------------
+
+-- | Stretched part of a shifted curve that contains the home of a position, if there is one.
+partAt :: Layer -> CurvePosition -> Maybe StretchedPart
+partAt layer s
+  | Map.null parts = Nothing
+  | otherwise = case lookupHome s parts of
+    Just (_, part) | home s <= end part -> Just part
+    _ -> Nothing
   where
-    -- A position before the start of the curve is at its start.
-    found = case approach s of
-      Before | parameter s > 0 -> Map.lookupLT
-      _ -> Map.lookupLE
+    StretchedParts parts = stretched layer
+
+-- | Position on the curve below that a shift moves to a position of the shifted curve.
+below :: Layer -> CurvePosition -> CurvePosition
+below layer s = case partAt layer s of
+  Nothing -> s
+  Just part@StretchedPart {first, final} ->
+    let h = lowered part (home s)
+        p = if parameter s == home s then h else lowered part (parameter s)
+     in if h >= final
+          then CurvePosition {parameter = p, home = final, approach = Before}
+          else
+            if h <= first
+              then CurvePosition {parameter = p, home = first, approach = After}
+              else s {parameter = p, home = h}
+
+-- | Parameter of the curve below for a parameter in or beside a stretched part. It is exact at both
+-- ends of the part.
+lowered :: StretchedPart -> Double -> Double
+lowered StretchedPart {begin, end, from, to} u
+  | u == end = to
+  | otherwise = from + (u - begin) * ((to - from) / (end - begin))
+
+-- | Derivative of the parameter of the curve below by that of the shifted curve.
+rate :: Layer -> CurvePosition -> Double
+rate layer s = case partAt layer s of
+  Nothing -> 1
+  Just StretchedPart {begin, end, from, to} -> (to - from) / (end - begin)
+
+-- | Parameters of the shifted curve for those of the curve below, both in ascending order. The
+-- parameters in those parts of the curve below that are cut off at corners are left out.
+raised :: Layer -> [Double] -> [Double]
+raised layer us
+  | Map.null parts = us
+  | otherwise = mapMaybe raise us
+  where
+    StretchedParts parts = stretched layer
+    raise u = case find (`concerns` u) parts of
+      Nothing -> Just u
+      Just StretchedPart {begin, end, from, to}
+        | u <= from || u >= to -> Nothing
+        | otherwise -> Just (begin + (u - from) * ((end - begin) / (to - from)))
+    concerns StretchedPart {begin, end} u = begin < u && u < end
+
+-- | Stretched parts of the shift of a curve.
+stretchedParts :: Layer -> Curve -> StretchedParts
+stretchedParts layer lower
+  | null corners && not hasSeam = StretchedParts Map.empty
+  | otherwise =
+    StretchedParts
+      (Map.fromList [(begin part, part) | run <- runs, part <- partsOf (breaks lower) run])
+  where
+    corners = filter (isJoined . turnOf lower) (innerBreaks lower)
+    hasSeam = isJoined (seamOf lower)
+    ends = [0] <> corners <> [domain lower]
+    joints =
+      (if hasSeam then cutsAt layer lower (domain lower) 0 else Nothing) :
+      map (\u -> cutsAt layer lower u u) corners
+    arriving = map (fmap fst) (drop 1 joints <> take 1 joints)
+    runs =
+      zipWith4
+        (\a b leave arrive -> (a, b, fromMaybe a leave, fromMaybe b arrive))
+        ends
+        (drop 1 ends)
+        (map (fmap snd) joints)
+        arriving
+
+-- | Stretched parts of a run of the curve below from the parameter @a@ to @b@, of which the shift
+-- uses the part from @t@ to @w@. Only a part beside each end is stretched, up to a break between
+-- smooth stretches. It is at least four times as long as the part that is cut off or added there.
+-- If there are no such breaks, the whole run is stretched. A run of which nothing is left is not
+-- stretched, so that gaps remain at its ends.
+partsOf :: [Double] -> (Double, Double, Double, Double) -> [StretchedPart]
+partsOf bs (a, b, t, w)
+  | t == a && w == b || t >= w = []
+  | l <= r =
+    [part a l t l | t /= a] <> [part r b r w | w /= b]
+  | otherwise = [part a b t w]
+  where
+    part begin end from to = StretchedPart {begin, end, from, to, first = a, final = b}
+    inside = filter (\u -> u > a && u < b) bs
+    l = if t == a then a else fromMaybe (1 / 0) (find (\u -> u - a >= 4 * abs (t - a)) inside)
+    r =
+      if w == b
+        then b
+        else fromMaybe (-1 / 0) (find (\u -> b - u >= 4 * abs (w - b)) (reverse inside))
+
+-- | Parameters at which the shift of a curve leaves the part before a corner and enters the part
+-- after it. The corner is at the parameter @c@ before it and @c'@ after it; they differ only where
+-- a closed curve begins. Newton's method finds the intersection of both parts. Nothing if it does
+-- not.
+cutsAt :: Layer -> Curve -> Double -> Double -> Maybe (Double, Double)
+cutsAt layer lower c c'
+  | ShiftDistance.vanishes (distance layer) (before c)
+      && ShiftDistance.vanishes (distance layer) (after c') =
+    Nothing
+  | otherwise = newton (20 :: Int) c c'
+  where
+    before u = CurvePosition {parameter = u, home = min c u, approach = Before}
+    after u = CurvePosition {parameter = u, home = max c' u, approach = After}
+    -- The sides are continued by less than the length of a span. False also for NaN.
+    isBeside corner u = abs (u - corner) <= 1
+    newton steps a b
+      | Mm (Vec.norm gap) <= Tolerance.crossing = Just (a, b)
+      | steps == 0 || abs (Vec.cross v w) <= 0 || not (isBeside c a && isBeside c' b) = Nothing
+      | otherwise =
+        newton
+          (steps - 1)
+          (a + Vec.cross gap w / Vec.cross v w)
+          (b + Vec.cross gap v / Vec.cross v w)
+      where
+        p = movedAt 1 layer lower (before a)
+        q = movedAt 1 layer lower (after b)
+        gap = Vec.to (TaylorExpansion.position p) (TaylorExpansion.position q)
+        (v, w) = (TaylorExpansion.velocity p, TaylorExpansion.velocity q)
+
+-- | Parameters, in ascending order, of the corners that shifts have made and at which a further
+-- shift joins both sides. The point at which a closed curve begins and ends has the parameter 0.
+joinedCorners :: Curve -> [Double]
+joinedCorners curve =
+  [0 | isJoined (seamOf curve)]
+    <> filter (isJoined . turnOf curve) (innerBreaks curve)
+
+-- | Parameters, in ascending order, of the breaks between smooth stretches, without the ends.
+innerBreaks :: Curve -> [Double]
+innerBreaks curve = drop 1 (takeWhile (< domain curve) (breaks curve))
+
+-- | Corner of a curve: the angle in radians, counter-clockwise, by which the curve turns there, and
+-- that by which its base turns.
+data Turn = Turn {ofCurve :: Double, ofBase :: Double}
+
+-- | True if a shift of the curve joins both sides of a corner: if it turns by more than a slight
+-- corner, at most by 'Tolerance.joinedCorner', and if it is not a corner of the base.
+isJoined :: Turn -> Bool
+isJoined Turn {ofCurve, ofBase} =
+  Rad (abs ofCurve) > Tolerance.kink
+    && Rad (abs ofCurve) <= Tolerance.joinedCorner
+    && Rad (abs ofBase) <= Tolerance.kink
+
+-- | Turn of a curve at a parameter.
+turnOf :: Curve -> Double -> Turn
+turnOf curve u = turnBetween curve (position Before u curve) (position After u curve)
+
+-- | Turn of a closed curve where it begins and ends; that of an open curve is 0.
+seamOf :: Curve -> Turn
+seamOf curve
+  | Vec.isNear (point start) (point finish) = turnBetween curve finish start
+  | otherwise = Turn 0 0
+  where
+    start = position After 0 curve
+    finish = position Before (domain curve) curve
+    point s = TaylorExpansion.position (expansionAt 0 curve s)
+
+-- | Turn between two positions. An angle is 0 if there is no direction at one of them.
+turnBetween :: Curve -> CurvePosition -> CurvePosition -> Turn
+turnBetween curve before after =
+  Turn {ofCurve = turn curve, ofBase = turn (Unshifted (base curve))}
+  where
+    turn c = fromMaybe 0 (angle <$> along before c <*> along after c)
+    angle v w = let Rad a = Vec.signedAngle v w in a
+    along :: CurvePosition -> Curve -> Maybe Vec
+    along s c = TaylorExpansion.direction (approach s) (expansionAt 1 c s)

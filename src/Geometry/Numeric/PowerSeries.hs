@@ -21,6 +21,7 @@ module Geometry.Numeric.PowerSeries
     subtract,
     scale,
     plusConstant,
+    stretched,
     multiply,
     divide,
     power,
@@ -87,6 +88,11 @@ scale k (PowerSeries a) = PowerSeries (Unboxed.map (k *) a)
 -- | The sum of the number @c@ and a series.
 plusConstant :: Double -> PowerSeries -> PowerSeries
 plusConstant c (PowerSeries a) = PowerSeries (Unboxed.imap (\k v -> if k == 0 then c + v else v) a)
+
+-- | The series in the parameter @t@ of @f(u₀ + k·t)@, given that of @f(u₀ + t)@.
+stretched :: Double -> PowerSeries -> PowerSeries
+stretched k (PowerSeries a) =
+  PowerSeries (Unboxed.zipWith (*) a (Unboxed.iterateN (Unboxed.length a) (k *) 1))
 
 -- | The product of two series: the Cauchy product of their coefficients.
 multiply :: PowerSeries -> PowerSeries -> PowerSeries

@@ -134,19 +134,56 @@ spec = do
           forAll (varying c >>= varying >>= \twice -> (,) twice <$> varying twice) $
             \(twice, thrice) ->
               let slight = Generate.slightCorners twice
-                  arrival u = if u <= 0 then Curve.domain twice else u
-                  gap u =
-                    Vec.distance
-                      (Curve.pointFrom Before thrice (arrival u))
-                      (Curve.pointFrom After thrice u)
                   shiftedBy u = Vec.distance (Curve.at twice u) (Curve.at thrice u)
                   asked u = abs (let Mm d = Curve.shiftDistance thrice u in d)
                in cover 50 (not (null slight)) "slight corners" $
                     conjoin
-                      [ counterexample (show (u, gap u)) (gap u <= Tolerance.coincident)
+                      [ counterexample (show u) (gapAt thrice u <= Tolerance.coincident)
                           .&&. near' 1e-9 (let Mm d = shiftedBy u in d) (asked u)
                         | u <- slight
                       ]
+    it
+      "stays at its distance beside the corners of a change between two points (catches a part \
+      \that is not cut off at a corner)"
+      $ property $
+        forAll Generate.gentle $ \c ->
+          forAll
+            ( (,,,,,)
+                <$> choose (0.05, 0.4)
+                  <*> choose (0.5, 0.95)
+                  <*> choose (-1, 1)
+                  <*> choose (-1, 1)
+                  <*> Generate.parameter
+                  <*> choose (0.2, 0.8)
+            )
+            $ \(a, b, h1, h2, t, k) ->
+              let room = min 10 (1 / (1e-9 + Generate.tightest c))
+                  ends = (Generate.parameterOf c a, Generate.parameterOf c b)
+                  scaledBy x = Mm (0.3 * room * x)
+                  growth = Growth {from = scaledBy h1, to = scaledBy h2, between = Just ends}
+                  lower = Curve.shifted LeftOf (Growing growth) c
+                  h = 0.3 * room * k
+                  turned =
+                    [ abs x
+                      | u <- Curve.corners lower,
+                        let Rad x =
+                              Vec.signedAngle
+                                (Curve.tangentFrom Before lower u)
+                                (Curve.tangentFrom After lower u)
+                    ]
+                  sharpest = maximum (0 : turned)
+                  by side = Curve.shifted side (Constant (Mm h)) lower
+                  farthest = h / cos (sharpest / 2) * (1 + 0.1 * sharpest) + 1e-6
+                  law side =
+                    let s = by side
+                        p = Curve.at s (Generate.parameterOf s t)
+                        Mm d = Vec.distance p (Curve.at lower (Curve.nearest p lower))
+                     in counterexample (show (h, d, sharpest)) $
+                          all ((<= Tolerance.coincident) . gapAt s) (Curve.corners lower)
+                            && d >= h - 1e-6
+                            && d <= farthest
+               in isNothing (Curve.firstCusp lower) && sharpest < 0.3
+                    ==> conjoin [law k | k <- [LeftOf, RightOf], isNothing (Curve.firstCusp (by k))]
     it "that grows between two points has corners there (catches a curve without breaks there)" $
       property $
         forAll Generate.gentle $ \c ->
@@ -398,6 +435,13 @@ spec = do
              in near' 1e-9 (rate Before) (rate After)
 
 -- Helpers -----------------------------------------------------------------------------------
+
+-- | The distance between both sides of a curve at a parameter. At the start of a closed curve the
+-- end is the other side.
+gapAt :: Curve -> Double -> Mm
+gapAt curve u = Vec.distance (Curve.pointFrom Before curve arrival) (Curve.pointFrom After curve u)
+  where
+    arrival = if u <= 0 then Curve.domain curve else u
 
 -- | Displacement from a point of a curve to the point of its shift.
 displacement :: Curve -> Double -> Curve -> Vec
