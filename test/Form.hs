@@ -215,7 +215,7 @@ longFunctions =
         "Part.ContourError.toReport",
         "Part.CurveError.toReport",
         "Part.Error.factReport",
-        "Part.LinkError.toReport",
+        "Part.LinkError.faultReport",
         "Part.PocketError.toReport",
         "Project.Error.reportWith",
         "Sheet.Error.toReport",

@@ -99,16 +99,25 @@ newtype FittingFillets = FittingFillets [(Region, Sense, Mm)]
 
 -- | The report of a link that cannot join its neighbours.
 toReport :: LengthUnit -> Neighbours -> LinkFault -> Report
-toReport unit j fault = case fault of
+toReport unit j fault = (faultReport unit j fault) {controlStop = Just (stopOf fault)}
+
+-- | The control stop of the Minsk-22 system for a link that fails: 17533 for a joint or an
+-- intersection, 17535 for a fillet.
+stopOf :: LinkFault -> Text
+stopOf fault = if isFillet then "17535" else "17533"
+  where
+    isFillet = case fault of
+      FilletAtPoint -> True
+      NoFillet {} -> True
+      AmbiguousFillet _ -> True
+      _ -> False
+
+-- | The report of a fault without its control stop.
+faultReport :: LengthUnit -> Neighbours -> LinkFault -> Report
+faultReport unit j fault = case fault of
   NoMeeting gap ->
-    ( titled
-        "E0311"
-        ( both unit j <> " do not meet: they are " <> Decimal.nonZeroIn unit gap
-            <> " apart"
-        )
-    )
-      { controlStop = Just "17533",
-        message = touchText unit j,
+    (titled "E0311" (both unit j <> " do not meet: they are " <> apartBy gap))
+      { message = touchText unit j,
         fixes = joinFixes unit j <> tangentFixes j,
         hints =
           [ alternatively
@@ -123,8 +132,7 @@ toReport unit j fault = case fault of
             <> " apart, and do not meet"
         )
     )
-      { controlStop = Just "17533",
-        message = ["A closed contour joins its last element to its first." | isClosing j],
+      { message = ["A closed contour joins its last element to its first." | isClosing j],
         fixes = joinFixes unit j,
         hints = [alternatively (joinFixes unit j) "Write the edge that is missing between them."]
       }
@@ -140,8 +148,7 @@ toReport unit j fault = case fault of
       }
   NotSmooth gap rounded ->
     (titled "E0315" (both unit j <> " do not touch: they miss it by " <> Decimal.inUnit unit gap))
-      { controlStop = Just "17533",
-        message = touchText unit j,
+      { message = touchText unit j,
         fixes = [filletsFix unit "Join them with a fillet: " fillets | Just fillets <- [rounded]],
         hints =
           [ alternatively
@@ -167,8 +174,7 @@ toReport unit j fault = case fault of
   TangentNeedsCircles -> repeatedReport unit (j :| []) [] fault
   ConcentricTangent ->
     (titled "E0318" "circles with the same centre have no common tangent")
-      { controlStop = Just "17533",
-        hints = ["Correct the centre of one of the two, or leave one of them out."]
+      { hints = ["Correct the centre of one of the two, or leave one of them out."]
       }
   CoincidentTangent isEnough ->
     (titled "E0319" "these circles are the same, so there is no tangent from one to the other")
@@ -190,6 +196,7 @@ toReport unit j fault = case fault of
       }
   where
     titled = linkTitle unit j
+    apartBy gap = Decimal.nonZeroIn unit gap <> " apart"
 
 -- | The report of a smooth link at a corner. If @isEnough@, the contour has no fault without it.
 kinkedReport :: LengthUnit -> Neighbours -> Rad -> Bool -> Report
@@ -226,8 +233,7 @@ noTangentReport unit j senses =
       "E0320"
       "no common tangent fits the senses in which these circles are traversed"
   )
-    { controlStop = Just "17533",
-      message = ["One circle lies inside the other: they have no common tangent." | null senses],
+    { message = ["One circle lies inside the other: they have no common tangent." | null senses],
       fixes = concatMap pairFix senses,
       hints =
         if null senses
@@ -268,8 +274,7 @@ noFilletReport unit j sense r (largest, turned) =
         <> " to "
         <> describe unit (value (after j))
   )
-    { controlStop = Just "17535",
-      message = why,
+    { message = why,
       fixes = offered,
       hints = [if null why then hint else alternatively offered hint]
     }
@@ -300,7 +305,7 @@ noFilletReport unit j sense r (largest, turned) =
 -- If all elements of the contour are points, @edges@ has the region of each point that has a point
 -- before it, and the point before it.
 repeatedReport :: LengthUnit -> NonEmpty Neighbours -> [(Region, Point)] -> LinkFault -> Report
-repeatedReport unit js@(j :| more) edges fault = case fault of
+repeatedReport unit js@(j :| more) edges fault = stopped $ case fault of
   FilletAtPoint ->
     ( linkTitle
         unit
@@ -333,6 +338,7 @@ repeatedReport unit js@(j :| more) edges fault = case fault of
           ]
       }
   where
+    stopped found = found {controlStop = Just (stopOf fault)}
     count = case length more of
       0 -> ""
       n -> " (" <> Decimal.whole (n + 1) <> " times in this contour)"
