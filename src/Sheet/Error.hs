@@ -70,8 +70,8 @@ data Error
     TooManyArrays NumberPosition
   | -- | The sheet ends too early. The position is that of its last word.
     EndMissing NumberPosition Expected
-  | -- | The word at this position, after the end mark of a piece, is not the link or the allowance
-    -- that belongs there.
+  | -- | The word at this position, after the end mark of a piece, is not the link, the allowance
+    -- or the feed that belongs there.
     LinkMissing NumberPosition LinkNumber
   | -- | A number follows the end of the program.
     AfterTheEnd NumberPosition
@@ -99,6 +99,8 @@ data GeneralFault
     HeightWithoutBevel
   | -- | a side of the tool that is not 1, -1 or 0
     UnknownSide
+  | -- | a number that should say if every piece gives a feed, other than 0 and 1
+    UnknownFeeds
   | -- | a number other than 0 at an unused address
     UnusedWord
   deriving stock (Eq, Ord, Show)
@@ -146,11 +148,12 @@ data Expected
     MarkAfterPiece
   | LinkOfPiece
   | AllowanceOfPiece
+  | FeedOfPiece
   deriving stock (Eq, Ord, Show)
 
--- | The number that is missing after the end mark of a piece: its link to the next piece, or its
--- allowance.
-data LinkNumber = LinkNumber | AllowanceNumber
+-- | The number that is missing after the end mark of a piece: its link to the next piece, its
+-- allowance, or its feed.
+data LinkNumber = LinkNumber | AllowanceNumber | FeedNumber
   deriving stock (Eq, Ord, Show)
 
 -- | The reason why the numbers of a piece do not fit its cipher.
@@ -278,8 +281,12 @@ generalTexts fault = case fault of
     ( "the side of the tool",
       "It is 1, left of the direction of travel, -1, right of it, or 0, on the pieces."
     )
+  UnknownFeeds ->
+    ( "the word about the feeds of pieces",
+      "It is 1 if every piece gives a feed after its allowance, and 0 if none does."
+    )
   UnusedWord ->
-    ("a word that is not used", "The addresses 0101 to 0107 are not used and hold 0.")
+    ("a word that is not used", "The addresses 0102 to 0107 are not used and hold 0.")
   where
     nineDigits = "It is a whole number of at most nine digits."
 
@@ -316,11 +323,13 @@ expectedText expected = case expected of
   MarkAfterPiece -> "the -0 behind a piece"
   LinkOfPiece -> "the link of a piece"
   AllowanceOfPiece -> "the allowance of a piece"
+  FeedOfPiece -> "the feed of a piece"
 
 linkNumberText :: LinkNumber -> Text
 linkNumberText missing = case missing of
   LinkNumber -> "link"
   AllowanceNumber -> "allowance"
+  FeedNumber -> "feed"
 
 misfitReport :: NumberPosition -> NumberPosition -> PieceMisfit -> Report
 misfitReport position cipher misfit =

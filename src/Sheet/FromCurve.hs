@@ -47,7 +47,8 @@ data Shift = Shift
   }
 
 -- | Converts the curve of a contour element to a piece of a sheet. The reports point at the region
--- @at@ of the element. @finish@ gives the flag of the feed and the allowance.
+-- @at@ of the element. @finish@ gives the flag of the feed and the allowance. The piece gets no
+-- feed of its own.
 piece :: Region -> Curve.Curve -> Finish -> Result w Unfit Piece
 piece at curve finish = do
   points <- pointsOf at (Curve.base curve)
@@ -67,7 +68,8 @@ piece at curve finish = do
         cipher = here cipher,
         rows,
         slow = here (Part.slow finish),
-        allowance = let Mm a = Part.allowance finish in here a
+        allowance = let Mm a = Part.allowance finish in here a,
+        ownFeed = Nothing
       }
   where
     original = map shiftOf (Curve.layers curve)

@@ -329,18 +329,15 @@ unsupported m =
     <> [SharpCorner | Part.corners m == Part.Sharp]
     <> [ControlCompensation | Just _ <- [Part.controlCompensation m]]
 
--- | The piece of a contour element. Refuses elements that are not curves, and elements with a feed
--- of their own.
+-- | The piece of a contour element. Refuses elements that are not curves.
 pieceOf :: Milling -> Part.ContourElement -> Result w Unfit Piece
 pieceOf m element = case Part.elementCurve element of
   Nothing -> refused (NoPiece at PlainElement)
   Just curve -> do
-    mapM_
-      (\f -> refused (NoFeed (region f) FeedOfElement))
-      (Part.ownFeed (Part.elementFinish element))
     piece <- FromCurve.piece at (Curve.exact curve) (Part.elementFinish element)
     mapM_ (const (checkSwivel at curve piece bevels)) (Part.gear m)
-    pure piece
+    own <- traverse belowRapid (Part.ownFeed (Part.elementFinish element))
+    pure piece {ownFeed = fmap here own}
   where
     at = Part.elementRegion element
     bevels =

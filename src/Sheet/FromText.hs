@@ -16,7 +16,7 @@ where
 import Base.Region (Located (..), Region (..))
 import Base.Result (Result (..))
 import Control.Monad (forM_, unless, when)
-import Control.Monad.State.Strict (StateT, evalStateT, gets, lift, modify', put)
+import Control.Monad.State.Strict (StateT, evalStateT, gets, lift, modify')
 import Data.Either (lefts, rights)
 import Data.List.NonEmpty (NonEmpty (..))
 import Data.List.NonEmpty qualified as NonEmpty
@@ -45,14 +45,23 @@ read text
     either
       (\e -> Result [] [e] Nothing)
       (Result [] [] . Just)
-      (evalStateT sheet (Input {unread = rights found, last' = NumberPosition (Region 0 0) 1}))
+      ( evalStateT
+          sheet
+          ( Input
+              { unread = rights found,
+                last' = NumberPosition (Region 0 0) 1,
+                piecesHaveFeeds = False
+              }
+          )
+      )
   where
     found = Word.entries text
 
 -- Reading
 
 -- | The words that are still to be read, and the position of the last word that was read.
-data Input = Input {unread :: [SheetWord], last' :: NumberPosition}
+-- @piecesHaveFeeds@ is True if the general data say that every piece gives a feed.
+data Input = Input {unread :: [SheetWord], last' :: NumberPosition, piecesHaveFeeds :: Bool}
 
 type Reader = StateT Input (Either Error)
 
@@ -66,7 +75,7 @@ next = do
   input <- gets unread
   case input of
     [] -> pure Nothing
-    e : rest -> Just e <$ put Input {unread = rest, last' = position e}
+    e : rest -> Just e <$ modify' (\b -> b {unread = rest, last' = position e})
 
 -- | The next word, which stays unread; Nothing at the end of the sheet.
 peek :: Reader (Maybe SheetWord)
@@ -86,7 +95,7 @@ upToMark :: Expected -> Reader ([SheetWord], SheetWord)
 upToMark expected = do
   (inside, rest) <- gets (break ((== Mark) . symbol) . unread)
   case rest of
-    mark : others -> (inside, mark) <$ put Input {unread = others, last' = position mark}
+    mark : others -> (inside, mark) <$ modify' (\b -> b {unread = others, last' = position mark})
     [] -> do
       mapM_ (\e -> modify' (\b -> b {last' = position e})) (listToMaybe (reverse inside))
       latest >>= \s -> refuse (EndMissing s expected)
@@ -127,6 +136,7 @@ generalData = do
       : height'
       : tolerance'
       : sideWord
+      : feedsWord
       : unused ->
         do
           check ProductCipherNotWhole isWhole product'
@@ -137,6 +147,8 @@ generalData = do
           check ToleranceNotPositive (> 0) tolerance'
           checkTool gear' bevel' height'
           side <- sideOf sideWord
+          check UnknownFeeds (`elem` [0, 1]) feedsWord
+          modify' (\b -> b {piecesHaveFeeds = value (snd feedsWord) == 1})
           pure
             General
               { productCipher = snd product',
@@ -280,7 +292,19 @@ piece = do
       (refuse (LinkMissing (position allowanceWord) AllowanceNumber))
       pure
       (figure allowanceWord)
-  pure (body {allowance}, link)
+  hasFeed <- gets piecesHaveFeeds
+  ownFeed <- if hasFeed then pieceFeed else pure Nothing
+  pure (body {allowance, ownFeed}, link)
+
+-- | Reads the feed of a piece. It is Nothing for 0, which means the feed of the array's pieces.
+pieceFeed :: Reader (Maybe Number)
+pieceFeed = do
+  e <- needed FeedOfPiece
+  case figure e of
+    Just n
+      | value n == 0 -> pure Nothing
+      | value n > 0 && value n < rapidFeed -> pure (Just n)
+    _ -> refuse (LinkMissing (position e) FeedNumber)
 
 -- | The link that a word means. Nothing for the number 0, which ends an array.
 linkOf :: SheetWord -> Reader (Maybe (Located Link))

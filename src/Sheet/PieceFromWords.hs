@@ -95,8 +95,8 @@ partsOf Layout {before, each, after, again} points numbers =
     (givenNumbers, rest) = splitAt (points * again) afterTails
 
 -- | Makes a piece. @opening@ is the word of its cipher. @isNegative@ tells if the cipher has a
--- minus sign; @digits@ are its digits. @inside@ are the words up to the end mark @mark@. The
--- allowance of the piece is set to 0, because its word comes after the end mark.
+-- minus sign; @digits@ are its digits. @inside@ are the words up to the end mark @mark@. The piece
+-- gets the allowance 0 and no feed, because their words come after the end mark.
 pieceOf :: SheetWord -> Bool -> [Digit] -> [SheetWord] -> SheetWord -> Either Error Piece
 pieceOf opening isNegative digits inside mark = do
   mapM_ (\e -> Left (misfitAt e LoneSign)) (filter isSign inside)
@@ -117,7 +117,8 @@ pieceOf opening isNegative digits inside mark = do
             (recalculations digits (unsigned (heads parts)) (tails parts) (given parts)),
         rows,
         slow,
-        allowance = Located (site (position mark)) 0
+        allowance = Located (site (position mark)) 0,
+        ownFeed = Nothing
       }
   where
     layout = layoutOf digits

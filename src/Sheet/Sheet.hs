@@ -105,7 +105,9 @@ data Piece = Piece
     -- | the flag of the feed: True to slow down at the end of the piece
     slow :: Located Bool,
     -- | the material left on the piece, mm
-    allowance :: Number
+    allowance :: Number,
+    -- | the feed along the piece, mm\/min; without it, that of the array's pieces applies
+    ownFeed :: Maybe Number
   }
   deriving stock (Eq, Show)
 
@@ -190,7 +192,7 @@ firstAddress :: Int
 firstAddress = 0o70
 
 -- | The count of the numbers of the general data on a sheet. They have the octal addresses 0070 to
--- 0107. The last seven are unused and 0.
+-- 0107. The last six are unused and 0.
 generalCount :: Int
 generalCount = 16
 

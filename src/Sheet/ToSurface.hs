@@ -103,10 +103,16 @@ headStatement g = Located (region number) (Part (Name . partName <$> number) (Ju
         (Region.merge (region (productCipher g)) (region (partCipher g)))
         (partTitle (value (productCipher g)) (value (partCipher g)))
 
+-- | The machine of a sheet: Kolsanova's system punched tapes for the interpolators ЛКИ-ФМ, ЛКИ-У
+-- and ЛКИ-УН. The first one is chosen, because its name fits the phase pulses into which, as she
+-- says, the interpolator converts a tape (docs/input-sheet.md).
+defaultMachine :: Text
+defaultMachine = "lki-fm"
+
 -- | The statements for the machine, the tool, the feed, the tolerance and the starting position.
 settings :: Sheet -> [Statement]
 settings sheet@Sheet {general = g, approach} =
-  [ Located at (Machine (Located at (Surface.Named "lkp-01f"))),
+  [ Located at (Machine (Located at (Surface.Named defaultMachine))),
     Located (region (diameter g)) (Tool Nothing (Located (region (diameter g)) tool)),
     Located (region working) (Feed (measured MmPerMin working)),
     Located (region (tolerance g)) (Tolerance (Surface.Within (measured Millimetre (tolerance g)))),
@@ -306,6 +312,7 @@ item isSwivelling count piece link =
     at = region (cipher piece)
     modifiers =
       [Located at (Surface.Bevel bevelOfPiece) | isSwivelling]
+        <> [Located (region f) (Surface.ElementFeed (unitless f)) | Just f <- [ownFeed piece]]
         <> [Located (region (slow piece)) Surface.Slow | value (slow piece)]
         <> [Located (region left) (Surface.ElementAllowance (unitless left)) | value left /= 0]
     bevelOfPiece

@@ -15,6 +15,7 @@ where
 import Base.Decimal qualified as Decimal
 import Base.Region (Located (..))
 import Data.List.NonEmpty qualified as NonEmpty
+import Data.Maybe (isJust)
 import Data.Text (Text)
 import Data.Text qualified as Text
 import Sheet.Sheet
@@ -23,18 +24,22 @@ import Sheet.Sheet
 write :: Sheet -> Text
 write sheet =
   Text.unlines $
-    generalData (general sheet)
+    generalData hasFeeds (general sheet)
       <> [""]
       <> map waypoint (NonEmpty.toList (approach sheet))
       <> ["-0"]
-      <> concat (zipWith (array (length (others sheet))) [0 ..] (NonEmpty.toList (arrays sheet)))
+      <> concat
+        (zipWith (array hasFeeds (length (others sheet))) [0 ..] (NonEmpty.toList (arrays sheet)))
+  where
+    hasFeeds = any (any (isJust . ownFeed) . pieces) (arrays sheet)
 
-generalData :: General -> [Text]
-generalData g =
+-- | The lines of the general data. @hasFeeds@ is True if every piece gives a feed.
+generalData :: Bool -> General -> [Text]
+generalData hasFeeds g =
   [ line [productCipher g, partCipher g, program g],
     line [diameter g, gear g, bevel g, height g],
     line [tolerance g] <> " " <> sideText (value (side g)),
-    "0 0 0 0 0 0 0"
+    (if hasFeeds then "1" else "0") <> " 0 0 0 0 0 0"
   ]
   where
     sideText s = case s of
@@ -47,26 +52,28 @@ waypoint w = line [x w, y w, z w, feed w]
 
 -- | The lines of an array. @lastArray@ is the index of the sheet's last array, @number'@ that of
 -- this array, both from 0. An end mark follows every array but the last.
-array :: Int -> Int -> Array -> [Text]
-array lastArray number' a =
-  concatMap (\(LinkedPiece p (Located _ l)) -> piece p (linkText l)) (joined a)
-    <> piece (final a) "0"
+array :: Bool -> Int -> Int -> Array -> [Text]
+array hasFeeds lastArray number' a =
+  concatMap (\(LinkedPiece p (Located _ l)) -> piece hasFeeds p (linkText l)) (joined a)
+    <> piece hasFeeds (final a) "0"
     <> [""]
     <> map waypoint (NonEmpty.toList (retract a))
     <> ["-0" | number' < lastArray]
 
--- | The lines of a piece; @link@ is the text of its link. The sign of the first distance before the
+-- | The lines of a piece; @link@ is the text of its link. @hasFeeds@ is True if every piece gives a
+-- feed. The sign of the first distance before the
 -- points gives the side to which the piece is shifted: a minus means right. If there is no such
 -- distance or it is 0, the sign of the cipher gives the side.
-piece :: Piece -> Text -> [Text]
-piece p link =
+piece :: Bool -> Piece -> Text -> [Text]
+piece hasFeeds p link =
   ["", cipherText]
     <> [line' signed | not (null heads)]
     <> map row (NonEmpty.toList (rows p))
     <> [line tails | not (null tails)]
     <> concatMap (map line . tens . NonEmpty.toList) given
-    <> [if value (slow p) then "1" else "0", "-0", link <> " " <> number (value (allowance p))]
+    <> [if value (slow p) then "1" else "0", "-0", Text.unwords (link : map number left)]
   where
+    left = [value (allowance p)] <> [maybe 0 value (ownFeed p) | hasFeeds]
     recalculations = value (cipher p)
     digits = Text.concat (map (digitText . digitOf) recalculations)
     heads = concatMap headOf recalculations

@@ -120,8 +120,6 @@ data FeedFault
     LeavingFeed
   | -- | the feed is 'Sheet.Sheet.rapidFeed' or more
     FeedTooHigh
-  | -- | an element has a feed of its own
-    FeedOfElement
   | -- | the feed is for one turn of the spindle
     FeedForTurn
   deriving stock (Eq, Ord, Show)
@@ -276,8 +274,6 @@ feedTexts fault = case fault of
     )
   FeedTooHigh -> ("a feed of 9999 mm/min or more", "On a sheet 9999 means rapid.")
   FeedForTurn -> ("a feed for one turn of the spindle", "The feeds of a sheet are in mm/min.")
-  FeedOfElement ->
-    ("an element with a feed of its own", "On a sheet all pieces of an array have one feed.")
 
 sharedText :: SharedSetting -> Text
 sharedText setting = case setting of

@@ -74,13 +74,15 @@ gentle strip = do
   side <- elements [minBound .. maxBound]
   cipher <- traverse (recalculation n (choose (0, 3))) digits
   slow <- arbitrary
+  ownFeed <- frequency [(3, pure Nothing), (1, Just . here . fromInteger <$> choose (5, 200))]
   pure
     Piece
       { shiftSide = here (if null cipher then LeftSide else side),
         cipher = here cipher,
         rows,
         slow = here slow,
-        allowance = here 0
+        allowance = here 0,
+        ownFeed
       }
   where
     row steep px py = do
@@ -173,13 +175,15 @@ piece = do
   cipher <- normal <$> traverse (recalculation n number) digits
   slow <- arbitrary
   allowance <- oneof [pure (here 0), coordinate]
+  ownFeed <- frequency [(3, pure Nothing), (1, Just . here <$> choose (0.5, 9998))]
   pure
     Piece
       { shiftSide = here (if null cipher then LeftSide else side),
         cipher = here cipher,
         rows,
         slow = here slow,
-        allowance
+        allowance,
+        ownFeed
       }
   where
     row steep =
