@@ -20,6 +20,7 @@ import Cli.ReferencePointTable qualified as ReferencePointTable
 import Cli.RestMaterialTable qualified as RestMaterialTable
 import Cli.StepTable qualified as StepTable
 import Cli.StockTable qualified as StockTable
+import Cli.TabTable qualified as TabTable
 import Cli.Table (Align (..))
 import Cli.Table qualified as Table
 import Compile (Analysis (..), Punched (..))
@@ -63,6 +64,7 @@ nodes source punched Analysis {part, path} =
         <> [pocketText unit machine job pass cleared | (job, pass, cleared) <- clearingsOf path]
         <> holeTable unit (drillingsOf path)
         <> holeOrderTable unit (drillingsOf path)
+        <> TabTable.tables path
         <> RestMaterialTable.tables path
         <> StockTable.tables unit machine path
         <> [summary unit punched path]
