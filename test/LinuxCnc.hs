@@ -155,6 +155,14 @@ harmless =
          "START_SPINDLE_COUNTERCLOCKWISE",
          "STOP_SPINDLE_TURNING"
        ]
+    <> [ "DWELL",
+         "SET_MOTION_CONTROL_MODE",
+         "SET_NAIVECAM_TOLERANCE",
+         "DISABLE_FEED_OVERRIDE",
+         "ENABLE_FEED_OVERRIDE",
+         "DISABLE_SPEED_OVERRIDE",
+         "ENABLE_SPEED_OVERRIDE"
+       ]
     <> [ "FLOOD_ON",
          "FLOOD_OFF",
          "MIST_OFF",

@@ -18,6 +18,7 @@ import Data.Text (Text)
 import Data.Text qualified as Text
 import Data.Text.Encoding qualified as Encoding
 import Files (readText)
+import Generate.CannedCycle qualified as CannedCycle
 import Geometry.Carrier (Circle (Circle), Sense (..))
 import Geometry.Segment (Segment (..))
 import Geometry.Segment qualified as Segment
@@ -32,6 +33,7 @@ import System.Directory (listDirectory)
 import System.Exit (ExitCode (..))
 import System.FilePath (takeBaseName, takeExtension, (<.>), (</>))
 import Test.Hspec
+import Test.QuickCheck hiding (within)
 
 spec :: Spec
 spec = do
@@ -134,6 +136,10 @@ spec = do
     if present
       then do
         interpreter
+        it
+          "expands random canned cycles as the reader of files does (catches a return that is too \
+          \high, and a cycle that comes back to another height)"
+          $ property (forAll CannedCycle.lines' expandsAlike)
         describe "retraces the path of every example" $
           forM_ examples $ \file ->
             it file (retraced ("examples" </> file))
@@ -294,6 +300,22 @@ feed60 s = Leg {chain = (s, (0, 0)) :| [], within = LinuxCnc.exactly, wanted = A
 
 halfTurn :: (Double, Double) -> (Double, Double) -> (Double, Double) -> Segment
 halfTurn centre from to = Arc {start = p from, end = p to, centre = p centre, sweep = Rad (-pi)}
+
+-- | Expects the same moves of lines with canned cycles from LinuxCNC and from the reader of files.
+expandsAlike :: [Text] -> Property
+expandsAlike written = ioProperty $ do
+  result <- run written
+  pure $ case result of
+    Left said -> counterexample (Text.unpack said) False
+    Right calls ->
+      counterexample (show (zip calls read')) $
+        length moves === length read' .&&. conjoin (zipWith isNear moves read')
+      where
+        moves = CannedCycle.distinct (map CannedCycle.ofCanonical calls)
+  where
+    read' = CannedCycle.distinct (CannedCycle.readMoves written)
+    isNear (isRapid, a) (isRapid', b) =
+      property (isRapid == isRapid' && and (zipWith (\x y -> abs (x - y) < 0.002) a b))
 
 -- | Compiles a part program for a modern control, and expects that LinuxCNC accepts the text
 -- without a message and moves along the toolpath.

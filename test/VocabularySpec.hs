@@ -11,6 +11,7 @@ import Data.Char (isAlpha)
 import Data.Text (Text)
 import Data.Text qualified as Text
 import Files (readText)
+import Surface.HoleForm qualified as HoleForm
 import Surface.Keyword qualified as Keyword
 import Surface.Token qualified as Token
 import Test.Hspec
@@ -40,7 +41,7 @@ spec = do
         <> Keyword.softStatements
         <> concatMap
           (concatMap Text.words . Keyword.settingsOf)
-          ["mill", "pocket", "rest", "face", "turn", "drill"]
+          (["mill", "pocket", "rest", "face", "turn", "drill"] <> HoleForm.words')
     grammar = "editors/tree-sitter-part/grammar.js"
     colours = "editors/tree-sitter-part/queries/highlights.scm"
 

@@ -44,7 +44,7 @@
 
 (defconst part-mode-settings
   '("depth" "lead" "corners" "climb" "conventional" "compensation" "start" "plunge" "peck"
-    "shortest" "islands" "rest" "angle"
+    "chip" "dwell" "pitch" "hand" "floating" "shortest" "islands" "rest" "angle"
     "ramp" "helix" "spiral" "tabs" "tab")
   "The words that begin settings, and that may be names as well.")
 
@@ -77,7 +77,7 @@
     ("\\_<\\(?:part\\|let\\|param\\|table\\|curve\\|piece\\|contour\\)[ \t]+\\(\\(?:\\sw\\|\\s_\\)+\\)"
      1 font-lock-variable-name-face)
     ;; These words begin a line; elsewhere they are names.
-    ("^[ \t]*\\(pocket\\|face\\|work\\|program\\|safe\\|stock\\|avoid\\|dwell\\)[ \t]+[(-]?\\(?:\\sw\\|\\s_\\)"
+    ("^[ \t]*\\(pocket\\|face\\|work\\|program\\|safe\\|stock\\|avoid\\|dwell\\|spot\\|ream\\|countersink\\|counterbore\\|bore\\|tap\\|thread\\)[ \t]+[(-]?\\(?:\\sw\\|\\s_\\)"
      1 font-lock-keyword-face)
     ("^[ \t]*\\(rest[ \t]+of\\)[ \t]" 1 font-lock-keyword-face)
     ("^[ \t]*pocket[ \t].*[ \t]\\(as\\)[ \t]" 1 font-lock-keyword-face)
@@ -98,17 +98,21 @@
     ("\\_<corners[ \t]+\\(round\\|sharp\\)\\_>" 1 font-lock-keyword-face)
     ("\\_<compensation[ \t]+\\(compiler\\|controller\\)\\_>" 1 font-lock-keyword-face)
     ("\\_<rest[ \t]+\\(allowed\\)\\_>" 1 font-lock-keyword-face)
-    ("\\_<drill[ \t]+\\(at\\)\\_>" 1 font-lock-keyword-face)
-    ("\\_<\\(cone\\|blade\\)(" 1 font-lock-keyword-face)
+    ("\\_<\\(?:drill\\|spot\\|ream\\|countersink\\|counterbore\\|bore\\|tap\\|thread\\)[ \t]+\\(at\\)\\_>" 1 font-lock-keyword-face)
+    ("\\_<\\(?:spot\\|countersink\\|counterbore\\|bore\\|thread\\)[ \t]+at\\_>.*\\_<\\(diameter\\)\\_>" 1 font-lock-keyword-face)
+    ("\\_<\\(?:bore\\|tap\\|thread\\)[ \t]+at\\_>.*\\_<\\(pitch\\)\\_>" 1 font-lock-keyword-face)
+    ("\\_<countersink[ \t]+at\\_>.*\\_<\\(angle\\)\\_>" 1 font-lock-keyword-face)
+    ("\\_<chip[ \t]+\\(break\\)\\_>" 1 font-lock-keyword-face)
+    ("\\_<\\(cone\\|blade\\|tap\\|threadmill\\)(" 1 font-lock-keyword-face)
     ("(\\(diameter\\|nose\\)\\_>" 1 font-lock-keyword-face)
     (",[ \t]*\\(height\\|gear\\)\\_>" 1 font-lock-keyword-face)
-    (",[ \t]*\\(flutes\\|stickout\\|holder\\)[ \t]+[(-]?\\(?:\\sw\\|\\s_\\)" 1 font-lock-keyword-face)
+    (",[ \t]*\\(flutes\\|stickout\\|holder\\|angle\\|pitch\\)[ \t]+[(-]?\\(?:\\sw\\|\\s_\\)" 1 font-lock-keyword-face)
     (",[ \t]*holder[ \t]\\(?:[^,()\n]\\|([^()\n]*)\\)*\\_<\\(height\\)[ \t]" 1 font-lock-keyword-face)
     ("\\_<turn(.*,[ \t]*\\(tip\\)\\_>" 1 font-lock-keyword-face)
     ("\\_<\\(cipher\\|joggle\\)\\_>" 1 font-lock-keyword-face)
     ("\\_<joggle\\_>.*\\_<\\(to\\)\\_>.*\\_<\\(depth\\)\\_>.*\\_<\\(radius\\)\\_>"
      (1 font-lock-keyword-face) (2 font-lock-keyword-face) (3 font-lock-keyword-face))
-    ("\\_<\\(?:drill\\)\\_>.*\\_<\\(depth\\)\\_>" 1 font-lock-keyword-face)
+    ("\\_<\\(?:drill\\|spot\\|ream\\|counterbore\\|bore\\|tap\\|thread\\)\\_>.*\\_<\\(depth\\)\\_>" 1 font-lock-keyword-face)
     ("\\_<\\(?:depth\\|pocket\\|rest\\|face\\)\\_>.*\\_<\\(step\\)\\_>" 1 font-lock-keyword-face)
     ("\\.\\..*\\_<\\(by\\)\\_>" 1 font-lock-keyword-face)
     (,(regexp-opt (append part-mode-statements part-mode-keywords) 'symbols) . font-lock-keyword-face)

@@ -50,12 +50,12 @@ provide-module part %§
     # The other words that cannot be names
     add-highlighter shared/part/code/ regex \b(for|if|in|then|else|and|or|not|open|closed|cw|ccw|meet|near|smooth|tangent|fillet|chamfer|slow|allowance|bevel|outside|inside|left|right|on|within|first|last|approach|retract)\b 1:keyword
     # Words that begin a line and are names elsewhere
-    add-highlighter shared/part/code/ regex ^\h*(pocket|face|work|program|safe|stock|avoid|dwell)\h+[(-]?\w 1:keyword
+    add-highlighter shared/part/code/ regex ^\h*(pocket|face|work|program|safe|stock|avoid|dwell|spot|ream|countersink|counterbore|bore|tap|thread)\h+[(-]?\w 1:keyword
     add-highlighter shared/part/code/ regex ^\h*(rest\h+of)\h 1:keyword
     add-highlighter shared/part/code/ regex ^\h*pocket\h[^\n]*\h(as)\h 1:keyword
     add-highlighter shared/part/code/ regex ^\h*((?:optional\h+)?stop)\h*$ 1:keyword
     add-highlighter shared/part/code/ regex ^\h*(units)\h+(mm|in)\b 1:keyword 2:type
-    add-highlighter shared/part/code/ regex (?:^|\{)\h*(depth|lead|corners|climb|conventional|compensation|start|plunge|peck|shortest|islands|rest|angle|ramp|helix|spiral|tabs|tab)\b 1:keyword
+    add-highlighter shared/part/code/ regex (?:^|\{)\h*(depth|lead|corners|climb|conventional|compensation|start|plunge|peck|chip|dwell|pitch|hand|floating|shortest|islands|rest|angle|ramp|helix|spiral|tabs|tab)\b 1:keyword
     # Words that follow others and are names elsewhere
     add-highlighter shared/part/code/ regex \blead\h+(?:in|out)\h+(line|arc)\b 1:keyword
     add-highlighter shared/part/code/ regex \blead\h+(out)\b 1:keyword
@@ -68,16 +68,20 @@ provide-module part %§
     add-highlighter shared/part/code/ regex \bcorners\h+(round|sharp)\b 1:keyword
     add-highlighter shared/part/code/ regex \bcompensation\h+(compiler|controller)\b 1:keyword
     add-highlighter shared/part/code/ regex \brest\h+(allowed)\b 1:keyword
-    add-highlighter shared/part/code/ regex \bdrill\h+(at)\b 1:keyword
-    add-highlighter shared/part/code/ regex \bdrill\b[^\n]*\b(depth)\b 1:keyword
+    add-highlighter shared/part/code/ regex \b(?:drill|spot|ream|countersink|counterbore|bore|tap|thread)\h+(at)\b 1:keyword
+    add-highlighter shared/part/code/ regex \b(?:drill|spot|ream|counterbore|bore|tap|thread)\h+at\b[^\n]*\b(depth)\b 1:keyword
+    add-highlighter shared/part/code/ regex ^\h*(?:spot|countersink|counterbore|bore|thread)\h+at\b[^\n]*\b(diameter)\b 1:keyword
+    add-highlighter shared/part/code/ regex ^\h*(?:bore|tap|thread)\h+at\b[^\n]*\b(pitch)\b 1:keyword
+    add-highlighter shared/part/code/ regex ^\h*countersink\h+at\b[^\n]*\b(angle)\b 1:keyword
+    add-highlighter shared/part/code/ regex \bchip\h+(break)\b 1:keyword
     add-highlighter shared/part/code/ regex \b(?:depth|pocket|rest|face)\b[^\n]*\b(step)\b 1:keyword
     add-highlighter shared/part/code/ regex \.\.[^\n]*\b(by)\b 1:keyword
     add-highlighter shared/part/code/ regex \b(cipher|joggle)\b 1:keyword
     add-highlighter shared/part/code/ regex \bjoggle\b[^\n]*\b(to)\b[^\n]*\b(depth)\b[^\n]*\b(radius)\b 1:keyword 2:keyword 3:keyword
-    add-highlighter shared/part/code/ regex \b(cone|blade)\( 1:keyword
+    add-highlighter shared/part/code/ regex \b(cone|blade|tap|threadmill)\( 1:keyword
     add-highlighter shared/part/code/ regex \((diameter|nose)\b 1:keyword
     add-highlighter shared/part/code/ regex ,\h*(height|gear)\b 1:keyword
-    add-highlighter shared/part/code/ regex ,\h*(flutes|stickout|holder)\h+[(-]?\w 1:keyword
+    add-highlighter shared/part/code/ regex ,\h*(flutes|stickout|holder|angle|pitch)\h+[(-]?\w 1:keyword
     add-highlighter shared/part/code/ regex ,\h*holder\h(?:[^,()\n]|\([^()\n]*\))*\b(height)\h 1:keyword
     add-highlighter shared/part/code/ regex \bturn\([^\n]*,\h*(tip)\b 1:keyword
 

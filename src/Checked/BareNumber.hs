@@ -194,6 +194,10 @@ typedExpressions s = case value s of
   Change _ _ place -> [(Nothing, e) | Just e <- [place]]
   Spindle _ -> [(Just Type.spindleSpeed, e) | e <- SyntaxWalk.ofStatement s]
   Drill e f settings -> (Nothing, e) : (Just Type.len, f) : concatMap typedSetting settings
+  Hole _ e sizes _ settings ->
+    (Nothing, e) :
+    [(Just (if size == HoleAngle then Type.angle else Type.len), x) | (size, x) <- sizes]
+      <> concatMap typedSetting settings
   Mill e _ settings -> (Nothing, e) : concatMap typedSetting settings
   Turn e _ settings -> (Nothing, e) : concatMap typedSetting settings
   Pocket e f _ settings -> (Nothing, e) : (Just Type.len, f) : concatMap typedSetting settings
@@ -242,6 +246,7 @@ typedSetting s = case value s of
   StartNear _ -> plain
   Islands _ -> plain
   Angle e -> [(Just Type.angle, e)]
+  Pause _ -> plain
   _ -> [(Just Type.len, e) | e <- SyntaxWalk.ofSetting s]
   where
     plain = [(Nothing, e) | e <- SyntaxWalk.ofSetting s]

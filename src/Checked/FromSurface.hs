@@ -52,6 +52,7 @@ import Data.Maybe (catMaybes, listToMaybe)
 import Data.Set qualified as Set
 import Data.Text (Text)
 import Surface.FileUnit qualified as FileUnit
+import Surface.HoleForm qualified as HoleForm
 import Surface.Syntax (Statement)
 import Surface.Syntax qualified as Surface
 import Surface.SyntaxWalk qualified as SyntaxWalk
@@ -194,6 +195,14 @@ statement env (Located at s) = case s of
       depth' <- Column.inScope columns (expect env Type.len depth)
       o <- Settings.check env "drill" options
       pure (\sol -> Checked.Drill (points' sol) (depth' sol) (o sol))
+  Surface.Hole work points sizes side options ->
+    one $
+      ( \points' sizes' o sol ->
+          Checked.Hole work (points' sol) (fmap (fmap ($ sol)) sizes') side (o sol)
+      )
+        <$> (snd <$> pointOrPoints env points)
+          <*> traverse (holeSize env) sizes
+          <*> Settings.check env (HoleForm.word work) options
   Surface.Travel motion stops ->
     one $
       (\ps sol -> Checked.Travel (fmap ($ sol) ps))
@@ -493,10 +502,22 @@ atPace motion s = case (motion, Surface.pace s) of
   (Surface.RapidMotion, Surface.Cutting) -> s {Surface.pace = Surface.Rapid}
   _ -> s
 
+-- | Checks a size of a hole.
+holeSize ::
+  TypingEnvironment ->
+  (Surface.HoleSize, Surface.Expr) ->
+  Infer (Surface.HoleSize, Deferred Checked.Expr)
+holeSize env (size, e) =
+  (size,) <$> expect env (if size == Surface.HoleAngle then Type.angle else Type.len) e
+
 cutter :: TypingEnvironment -> Surface.Cutter -> Infer (Deferred Checked.Cutter)
 cutter env (Located at c) = fmap (Located at .) $ case c of
   Surface.MillCutter e sizes -> sized Checked.MillCutter e sizes
   Surface.DrillCutter e sizes -> sized Checked.DrillCutter e sizes
+  Surface.TapCutter e sizes -> sized Checked.TapCutter e sizes
+  Surface.ThreadMillCutter e pitch sizes ->
+    (\pitch' made sol -> made sol (pitch' sol))
+      <$> len pitch <*> sized (\e' sizes' p -> Checked.ThreadMillCutter e' p sizes') e sizes
   Surface.TurningCutter e tip ->
     (\e' tip' sol -> Checked.TurningCutter (e' sol) (($ sol) <$> tip'))
       <$> len e <*> traverse (expect env Type.number) tip
@@ -515,6 +536,7 @@ bodySize :: TypingEnvironment -> Surface.BodySize -> Infer (Deferred Checked.Bod
 bodySize env (Located at s) = fmap (Located at .) $ case s of
   Surface.Flutes e -> (Checked.Flutes .) <$> len e
   Surface.StickOut e -> (Checked.StickOut .) <$> len e
+  Surface.PointAngle e -> (Checked.PointAngle .) <$> expect env Type.angle e
   Surface.HolderCylinder d h ->
     (\d' h' sol -> Checked.HolderCylinder (d' sol) (($ sol) <$> h')) <$> len d <*> traverse len h
   where

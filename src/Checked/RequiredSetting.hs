@@ -18,6 +18,7 @@ import Data.Map.Strict qualified as Map
 import Data.Maybe (isJust, isNothing, listToMaybe)
 import Data.Text (Text)
 import Data.Text qualified as Text
+import Surface.HoleForm qualified as HoleForm
 import Surface.Syntax (Statement)
 import Surface.Syntax qualified as Surface
 
@@ -105,6 +106,7 @@ machiningKeyword s = case s of
   Surface.Face {} -> "face"
   Surface.Turn {} -> "turn"
   Surface.Drill {} -> "drill"
+  Surface.Hole work _ _ _ _ -> HoleForm.word work
   Surface.Travel Surface.RapidMotion _ -> "rapid"
   Surface.Change {} -> "change"
   _ -> "move"
@@ -154,6 +156,14 @@ requirement s = case s of
   Surface.Turn {} -> none {needed = milling}
   Surface.Drill {} ->
     none {keywordLength = 5, needed = [ToolSetting, FeedSetting, FromSetting, ClearanceSetting]}
+  Surface.Hole work _ _ _ _ ->
+    none
+      { keywordLength = Text.length (HoleForm.word work),
+        needed =
+          [ToolSetting, FromSetting, ClearanceSetting]
+            <> [FeedSetting | work /= Surface.Tapping]
+            <> [ToleranceSetting | work `elem` milledWorks]
+      }
   Surface.Travel Surface.RapidMotion _ -> none {keywordLength = 5, needed = [FromSetting]}
   Surface.Travel Surface.FeedMotion stops ->
     none
@@ -172,6 +182,7 @@ requirement s = case s of
           needed = [],
           isGlobal = True
         }
+    milledWorks = [Surface.Boring, Surface.Counterboring, Surface.Threading]
     milling = [ToolSetting, FeedSetting, ToleranceSetting, FromSetting]
     forDepth options = [ClearanceSetting | or [True | Located _ (Surface.Depth _ _) <- options]]
 

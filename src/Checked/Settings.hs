@@ -91,6 +91,11 @@ setting env statement (Located at s) = do
         o {tabs = Just (Located at (Checked.Tabs (places' sol) (w' sol) (h' sol) (($ sol) <$> a')))}
     Surface.Peck e -> (\e' sol o -> o {peck = Just (e' sol)}) <$> len e
     Surface.ShortestWay -> pure (\_ o -> o {visits = Shortest})
+    Surface.ChipBreak e -> (\e' sol o -> o {chipBreak = Just (Located at (e' sol))}) <$> len e
+    Surface.Pause e -> (\e' sol o -> o {pause = Just (e' sol)}) <$> expect env Type.number e
+    Surface.TurnPitch e -> (\e' sol o -> o {turnPitch = Just (e' sol)}) <$> len e
+    Surface.Hand side -> pure (\_ o -> o {hand = Just side})
+    Surface.Floating -> pure (\_ o -> o {floating = Just at})
     Surface.Islands es ->
       (\es' sol o -> o {islands = map ($ sol) es'})
         <$> mapM (contourOrContours env) (NonEmpty.toList es)
@@ -154,6 +159,11 @@ unset =
       tabs = Nothing,
       peck = Nothing,
       visits = AsListed,
+      chipBreak = Nothing,
+      pause = Nothing,
+      turnPitch = Nothing,
+      hand = Nothing,
+      floating = Nothing,
       islands = [],
       restAllowed = Nothing,
       passAngle = Nothing
@@ -182,6 +192,11 @@ keyword s = case s of
   Surface.Tabs (Surface.TabsAt _) _ _ _ -> "tab at"
   Surface.Peck _ -> "peck"
   Surface.ShortestWay -> "shortest"
+  Surface.ChipBreak _ -> "chip break"
+  Surface.Pause _ -> "dwell"
+  Surface.TurnPitch _ -> "pitch"
+  Surface.Hand _ -> "hand"
+  Surface.Floating -> "floating"
   Surface.Islands _ -> "islands"
   Surface.RestAllowed -> "rest"
   Surface.Angle _ -> "angle"

@@ -51,6 +51,8 @@ module Checked.Syntax
     CutSense (..),
     Lead (..),
     LeadForm (..),
+    HoleWork (..),
+    HoleSize (..),
     MachineRef (..),
     Operator (..),
     Rank (..),
@@ -74,6 +76,8 @@ import Surface.Syntax
     Compensation (..),
     Corners (..),
     CutSense (..),
+    HoleSize (..),
+    HoleWork (..),
     Lead (..),
     LeadForm (..),
     MachineRef (..),
@@ -157,6 +161,9 @@ data Statement_
   | Turn Expr (Located Side) Settings
   | -- | the point or the list of points, the depth in mm, and the settings
     Drill Expr Expr Settings
+  | -- | the work, the point or the list of points, the sizes in mm and radians, the side of a
+    -- thread, and the settings
+    Hole HoleWork Expr [(HoleSize, Expr)] (Maybe (Located Side)) Settings
   | Travel (NonEmpty Stop)
   | -- | the number of the tool, the tool, and the point at which it is changed
     Change Expr Cutter (Maybe Expr)
@@ -225,6 +232,9 @@ type Cutter = Located Cutter_
 data Cutter_
   = MillCutter Expr [BodySize]
   | DrillCutter Expr [BodySize]
+  | TapCutter Expr [BodySize]
+  | -- | a thread mill: its diameter and the pitch of its teeth
+    ThreadMillCutter Expr Expr [BodySize]
   | TurningCutter Expr (Maybe Expr)
   | -- | a conical cutter: the diameter of its tip, the bevel of its flank, and the height above the
     -- tip at which the flank touches the contour
@@ -237,8 +247,13 @@ data Cutter_
 type BodySize = Located BodySize_
 
 -- | A size of the body of a tool in mm: the length of the cutting edges, the length from the tip to
--- the holder, or the diameter of a cylinder of the holder and its height.
-data BodySize_ = Flutes Expr | StickOut Expr | HolderCylinder Expr (Maybe Expr)
+-- the holder, or the diameter of a cylinder of the holder and its height; or the angle of the point
+-- of a drill in radians.
+data BodySize_
+  = Flutes Expr
+  | StickOut Expr
+  | PointAngle Expr
+  | HolderCylinder Expr (Maybe Expr)
   deriving stock (Eq, Show)
 
 -- | The allowed chord error in mm: the same on both sides of the toolpath, or one towards the
@@ -299,6 +314,16 @@ data Settings = Settings
     peck :: Maybe Expr,
     -- | the order in which holes are drilled
     visits :: VisitOrder,
+    -- | the rise after each peck that does not leave the hole, with the region of the setting
+    chipBreak :: Maybe (Located Expr),
+    -- | the seconds at the bottom of a hole
+    pause :: Maybe Expr,
+    -- | the depth of one turn of a counterbore
+    turnPitch :: Maybe Expr,
+    -- | the hand of a thread: left or right
+    hand :: Maybe Side,
+    -- | the region of the setting that allows a floating tap holder
+    floating :: Maybe Region,
     -- | the islands of a pocket: expressions of contours and of lists of contours
     islands :: [Expr],
     -- | the region of the setting that allows rest material; without it, rest material is a mistake

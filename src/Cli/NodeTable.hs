@@ -278,7 +278,7 @@ holeTable unit drillings =
         ( ["x", "y", "diameter", "depth"] :
             [ [ fixed3 unit (Mm (Vec.x p)),
                 fixed3 unit (Mm (Vec.y p)),
-                fixed3 unit (times 2 (Part.drillRadius d)),
+                fixed3 unit (times 2 (Part.mouthRadius d)),
                 fixed3 unit (times (-1) bottom)
               ]
               | (begin, d) <- drillings,

@@ -247,7 +247,7 @@ holesOf operation = case operation of
   Mill _ -> []
   Pocket _ -> []
   Drill (Located _ d) ->
-    [Circle p (Part.drillRadius d) | Part.Hole (Located _ p) _ <- NonEmpty.toList (Part.holes d)]
+    [Circle p (Part.mouthRadius d) | Part.Hole (Located _ p) _ <- NonEmpty.toList (Part.holes d)]
   Travel _ -> []
   Command _ -> []
 
@@ -312,7 +312,7 @@ cutterBox :: Block -> [BoundingBox]
 cutterBox block = case block of
   Travelling {} -> []
   Holing (Located _ d) _ ->
-    [ BoundingBox.inflate (Part.drillRadius d) (BoundingBox.ofPoints p [])
+    [ BoundingBox.inflate (Part.mouthRadius d) (BoundingBox.ofPoints p [])
       | Part.Hole (Located _ p) _ <- NonEmpty.toList (Part.holes d)
     ]
   Commanding _ -> []

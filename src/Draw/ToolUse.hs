@@ -155,4 +155,6 @@ wordOf kind = case kind of
   Part.ConeCutter -> "cone Ø"
   Part.DovetailCutter -> "dovetail Ø"
   Part.BladeCutter _ -> "blade Ø"
+  Part.TappingCutter -> "tap Ø"
+  Part.ThreadCutter _ -> "thread mill Ø"
   Part.TurningCutter -> "nose R"

@@ -9,11 +9,13 @@ module Frame.CommandState
     SpindleNumbers (..),
     initial,
     isEvent,
+    reversed,
     after,
     between,
   )
 where
 
+import Data.Bifunctor (first)
 import Machine.Machine
   ( CommandName,
     CommandValue (..),
@@ -68,6 +70,14 @@ after state command = case command of
   ProgramStop -> state
   OptionalStop -> state
   Dwell _ -> state
+
+-- | State with the spindle in the other sense.
+reversed :: CommandState -> CommandState
+reversed state = state {spindle = fmap (first other) (spindle state)}
+  where
+    other sense = case sense of
+      Clockwise -> CounterClockwise
+      CounterClockwise -> Clockwise
 
 -- | True for a command that happens once and changes no state.
 isEvent :: Command -> Bool

@@ -19,6 +19,8 @@ import Base.Region (Region)
 import Data.Maybe (isJust)
 import Data.Text (Text)
 import Data.Text qualified as Text
+import Frame.TapError (TapFault)
+import Frame.TapError qualified as TapError
 import Geometry.Vec (Point)
 import Geometry.Vec qualified as Vec
 import Machine.BuiltIn qualified as BuiltIn
@@ -71,6 +73,7 @@ data Error
     NoCompensation Region
   | -- | a cutter diameter in mm that the word for it cannot hold
     DiameterOutOfRange Region Mm
+  | CannotTap Region TapFault
   deriving stock (Eq, Ord, Show)
 
 -- | Difference between a request of the program and the frames.
@@ -143,6 +146,7 @@ toReport unit machine err = case err of
       { message = [machineName machine <> " takes feeds in mm/min, so mm/rev needs the speed."],
         hints = ["Write the speed before the cut: ‘spindle cw 800 rpm’, or a feed in mm/min."]
       }
+  CannotTap region fault -> TapError.toReport unit (machineName machine) region fault
   NoCuttingSpeed region ->
     (report Report.Error "E0521" (InSource region) (machineName machine <> " has no cutting speed"))
       { message = ["Its spindle turns at the same speed until the program changes it."],

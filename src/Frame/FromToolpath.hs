@@ -53,6 +53,7 @@ import Frame.Frame
 import Frame.Frame qualified as Frame
 import Frame.FrameCheck qualified as FrameCheck
 import Frame.Helix qualified as Helix
+import Frame.HoleRule qualified as HoleRule
 import Frame.Instruction (FeedMode (..), Instruction (..))
 import Frame.Instruction qualified as Instruction
 import Frame.InstructionCheck qualified as InstructionCheck
@@ -75,14 +76,15 @@ import Toolpath.Toolpath qualified as Toolpath
 quantise :: Machine -> Toolpath -> Result Warning Error FrameProgram
 quantise
   machine
-  path@Toolpath {Toolpath.start = Located startRegion (SpacePoint startPoint startHeight)} =
+  given@Toolpath {Toolpath.start = Located startRegion (SpacePoint startPoint startHeight)} =
     -- These errors are evaluated before the frames are made. Otherwise they would keep the whole
     -- toolpath in memory.
-    foldr seq () (tooCoarse <> tooMany) `seq` case errorsOf tooCoarse tooMany made of
+    foldr seq () (tooCoarse <> tooMany <> untapped) `seq` case problemsOf made of
       [] -> Result warnings [] (Just (FrameProgram begin frames))
       -- No warnings: without frames, nothing runs otherwise than asked for.
       problems -> Result [] (map (atDepth path) problems) Nothing
     where
+      path = HoleRule.adapted machine given
       begin = Rounding.rounded machine (startPoint, startHeight)
       context =
         Context
@@ -91,6 +93,8 @@ quantise
             instructionContext = InstructionCheck.contextOf machine startRegion startPoint,
             frameContext = FrameCheck.contextOf machine
           }
+      -- The feeds of a tap mean nothing on a machine that cannot tap.
+      problemsOf end' = if null untapped then errorsOf tooCoarse tooMany end' else nubOrd untapped
       making =
         framesOf
           context
@@ -99,6 +103,7 @@ quantise
       made = LazyList.end making
       frames = LazyList.toList making
       tooCoarse = mapMaybe (toleranceError machine) (Toolpath.blocks path)
+      untapped = HoleRule.tapErrors machine path
       tooMany = contourErrors machine path
       startWarnings = startWarning machine startRegion (SpacePoint startPoint startHeight) begin
       warnings = nubOrd (startWarnings <> warningsOf made)

@@ -31,8 +31,9 @@ import Frame.Rounding qualified as Rounding
 import Geometry.Segment qualified as Segment
 import Machine.Machine (Machine)
 import Machine.Machine qualified as Machine
-import Part.Part (Milling)
+import Part.Part (Drilling, Milling)
 import Part.Part qualified as Part
+import Toolpath.DrillMove qualified as DrillMove
 import Toolpath.Toolpath (Block, Move (..), Sent, Toolpath, heights, pace)
 import Toolpath.Toolpath qualified as Toolpath
 
@@ -95,12 +96,16 @@ byState machine states@(before, now) list = case list of
       onlyReports made : byState machine (before, CommandState.after now (value c)) more
   (block, made) : more -> case Toolpath.moves block of
     [] -> made : byState machine states more
-    m : _ -> (switched (Toolpath.origin m) <> made) : byState machine (now, now) more
+    m : _ -> (switched (Toolpath.origin m) <> made) : byState machine (leaving block, now) more
   where
     switched asked =
       [ Words asked (Command.Translation ws False [] [])
         | ws <- CommandState.between machine before now
       ]
+    -- A tap comes out of its last hole with the spindle in the other sense.
+    leaving block = case block of
+      Toolpath.Holing (Located _ d) _ | Part.Tapped _ <- Part.form d -> CommandState.reversed now
+      _ -> now
     onlyReports made = [Words r t {Command.numbers = []} | Words r t <- made]
 
 -- | Walls beside the passes of a toolpath, for each block. The passes of a statement share them.
@@ -124,7 +129,8 @@ wallsOf = snd . mapAccumL next (-1, Passage.walls [])
 ofBlock :: Machine -> Int -> Int -> Walls -> Block -> [Instruction]
 ofBlock machine blockNumber n walls b = case b of
   Toolpath.Travelling radius _ ms -> straightRuns Linking radius ms
-  Toolpath.Holing (Located _ d) ms -> straightRuns (Drilling blockNumber) (Part.drillRadius d) ms
+  Toolpath.Holing d ms ->
+    concat (zipWith (holing machine blockNumber d) (drop 1 (map Just ms) <> [Nothing]) ms)
   Toolpath.Commanding c -> [Words (region c) (Command.translated machine c)]
   Toolpath.Cutting
     { Toolpath.job = Located region' job,
@@ -159,6 +165,19 @@ ofBlock machine blockNumber n walls b = case b of
               concatMap (\m -> along (roleInPocket n m) [m]) (NonEmpty.toList cleared),
               along (Retracting n) retract
             ]
+
+-- | The run of a move of a drilling statement, which is block @n@, and the words of the commands
+-- between it and the next move of the statement. The chords of circles keep the smaller limit of
+-- the tolerance.
+holing :: Machine -> Int -> Located Drilling -> Maybe Move -> Move -> [Instruction]
+holing machine n (Located region d) following m =
+  Run (Drilling n) (Sagitta limit) (Part.drillRadius d) 0 AsProgrammed (m :| []) :
+    [ Words region (Command.translated machine (Located region c))
+      | isJust following,
+        c <- DrillMove.commandsAfter d m
+    ]
+  where
+    limit = maybe (Mm 0) (uncurry min . Part.deviationLimits . snd) (Part.runsOf d)
 
 -- | Runs outside of milling, one for each move, with the cutter's radius in mm, and with the tool
 -- index 0. All moves are

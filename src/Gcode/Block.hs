@@ -99,6 +99,8 @@ data FaultReason
     UnknownPosition Char
   | -- | an arc whose centre is missing, or at its beginning or end
     BadArc
+  | -- | a canned cycle whose height R is below the bottom or above the tool, or without pecks
+    BadCycle
   | -- | a line with more characters than the control reads: the largest count
     LineTooLong Int
   | -- | words behind the end of the program

@@ -99,7 +99,7 @@ dwellPerUnit dialect = case dialect of
 groupOfG :: Dialect -> Int -> Int
 groupOfG dialect code
   | code == 800 && dialect == Fanuc = 9
-  | code `elem` [0, 10, 20, 30, 800] = 1
+  | code `elem` [0, 10, 20, 30, 800, 331, 730, 810, 820, 830, 840, 850] = 1
   | code `elem` [170, 180, 190] = 2
   | code `elem` [900, 910] = 3
   | code `elem` [901, 911] = 4

@@ -89,6 +89,13 @@ wordsOf reason = case reason of
       ["The control would refuse the line."],
       ["Write " <> w <> " in this line."]
     )
+  BadCycle ->
+    ( "this canned cycle goes nowhere",
+      [ "The tool comes down to the height R, which is above the bottom Z of the hole and not \
+        \above the tool, and each peck Q is above 0."
+      ],
+      ["Correct the words R, Z and Q."]
+    )
   UnusedWord w ->
     ( "no word of this line uses " <> w,
       ["The control would refuse the line, or ignore the word."],

@@ -14,18 +14,20 @@ where
 import Base.Decimal qualified as Decimal
 import Base.Name (Name (..))
 import Base.PulseVector (Pulses3 (..))
-import Base.Quantity (LengthUnit, Mm (..), Pulses (..), times)
+import Base.Quantity (LengthUnit, Mm (..), Pulses (..), degrees, times)
 import Base.Region (Located (..))
 import Control.Applicative ((<|>))
 import Data.Containers.ListUtils (nubOrdOn)
 import Data.List.NonEmpty qualified as NonEmpty
 import Data.Map.Strict (Map)
 import Data.Map.Strict qualified as Map
+import Data.Maybe (isJust)
 import Data.Set (Set)
 import Data.Set qualified as Set
 import Data.Text (Text)
 import Frame.Frame (FrameProgram (..))
 import Frame.Frame qualified as Frame
+import Gcode.HoleCycle (TapNeed (..))
 import Geometry.Segment qualified as Segment
 import Geometry.Vec qualified as Vec
 import Machine.Machine (Machine)
@@ -33,7 +35,7 @@ import Machine.Machine qualified as Machine
 import Machine.ProgramForm (ProgramForm (..), Retract (..))
 import Part.Part (Cutter, Milling)
 import Part.Part qualified as Part
-import Toolpath.Toolpath (Toolpath)
+import Toolpath.Toolpath (Block, Toolpath)
 import Toolpath.Toolpath qualified as Toolpath
 
 -- | Facts of a file besides its frames.
@@ -59,7 +61,9 @@ data FileHeading = FileHeading
     -- | numbers of the passes that turn the inside of the part
     insidePasses :: Set Int,
     -- | the turnings of the program
-    turnings :: [Milling]
+    turnings :: [Milling],
+    -- | the taps, by the numbers of their blocks
+    tapNeeds :: Map Int TapNeed
   }
   deriving stock (Eq, Show)
 
@@ -84,7 +88,8 @@ fromToolpath path =
             | (n, job) <- turned,
               isBelow job
           ],
-      turnings = [job | (_, job) <- turned]
+      turnings = [job | (_, job) <- turned],
+      tapNeeds = tapsOf blocks
     }
   where
     setup = Toolpath.setup path
@@ -101,6 +106,15 @@ fromToolpath path =
     unit = Toolpath.unit path
     first = [(n, cutterText unit c) | (n, c) <- numbered]
     changed = [(n, cutterText unit cutter) | Part.ChangeTool n cutter <- commands]
+
+-- | The taps of blocks, by the numbers of the blocks.
+tapsOf :: [Block] -> Map Int TapNeed
+tapsOf blocks =
+  Map.fromList
+    [ (n, TapNeed (Part.tapPitch t) (isJust (Part.floats t)))
+      | (n, Toolpath.Holing (Located _ d) _) <- zip [0 ..] blocks,
+        Part.Tapped t <- [Part.form d]
+    ]
 
 -- | Safe height in mm on a control that needs one: that of the program, or else that of the
 -- description. Nothing on other controls, and if neither states one.
@@ -172,11 +186,16 @@ cutterText unit cutter = case Part.kind cutter of
   Part.DovetailCutter -> "dovetail, diameter " <> diameter
   Part.BladeCutter _ -> "blade, diameter " <> diameter
   Part.DrillingCutter -> "drill, diameter " <> diameter <> bodyText
+  Part.TappingCutter -> "tap, diameter " <> diameter <> bodyText
+  Part.ThreadCutter pitch ->
+    "thread mill, diameter " <> diameter <> ", pitch " <> inUnit pitch <> bodyText
   Part.TurningCutter -> "turning tool, nose radius " <> inUnit (Part.cutterRadius cutter) <> tip
   where
     tip = maybe "" (\n -> ", tip " <> Decimal.whole n) (Part.tip cutter)
     bodyText =
       maybe "" ((", flutes " <>) . inUnit) (Part.fluteLength (Part.body cutter))
+        <> maybe "" ((", angle " <>) . inDegrees) (Part.pointAngle (Part.body cutter))
         <> maybe "" ((", stick-out " <>) . inUnit) (Part.stickOut (Part.body cutter))
+    inDegrees a = Decimal.short 3 (degrees a) <> " deg"
     diameter = inUnit (times 2 (Part.cutterRadius cutter))
     inUnit = Decimal.inUnit unit

@@ -12,6 +12,7 @@ module Gcode.ModalState
     Distances (..),
     FeedKind (..),
     MotionMode (..),
+    CannedCycle (..),
     Spindle (..),
     SpeedMode (..),
     ToolLength (..),
@@ -57,8 +58,26 @@ data FeedKind = PerMinute | PerTurn | InverseTime
   deriving stock (Eq, Show)
 
 -- | Kind of motion of a line with words of axes.
-data MotionMode = RapidMode | LinearMode | ArcMode Sense
+data MotionMode = RapidMode | LinearMode | ArcMode Sense | CycleMode CannedCycle
   deriving stock (Eq, Show)
+
+-- | Canned cycle for holes.
+data CannedCycle
+  = -- | G81
+    DrillingCycle
+  | -- | G82
+    DwellingCycle
+  | -- | G83
+    PeckingCycle
+  | -- | G73
+    ChipCycle
+  | -- | G85
+    ReamingCycle
+  | -- | G84
+    TappingCycle
+  | -- | G33.1: tapping in step with the spindle
+    SynchronousCycle
+  deriving stock (Eq, Show, Enum, Bounded)
 
 -- | Spindle: off, or turning in a sense.
 data Spindle = SpindleStopped | SpindleTurning Sense
@@ -107,6 +126,9 @@ data ModalState = ModalState
     speedUnits :: Modal Units,
     coolant :: Modal Coolant,
     pathMode :: Modal PathMode,
+    -- | true if canned cycles come back to the height R (G99), false if to the height before them
+    -- (G98)
+    returnsToPlane :: Modal Bool,
     -- | true if the words of X are diameters (G7), false if they are radii (G8)
     diameters :: Modal Bool,
     -- | true while the control computes the path of the cutter's centre (G41, G42)
@@ -138,6 +160,7 @@ initial dialect =
       speedMode = ifFixed ConstantTurns,
       speedUnits = Unset,
       coolant = Unset,
+      returnsToPlane = Unset,
       pathMode = ifFixed ExactPath,
       diameters = case dialect of
         LinuxCnc -> Unset

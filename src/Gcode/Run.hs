@@ -18,70 +18,33 @@ module Gcode.Run
 where
 
 import Base.Quantity (Mm (..), Seconds (..))
-import Control.Monad (foldM, forM_, unless, when)
+import Control.Monad (foldM, forM_, join, unless, when)
+import Data.Foldable (traverse_)
+import Data.List (foldl')
 import Data.Maybe (fromMaybe, isJust, isNothing, listToMaybe, mapMaybe)
 import Data.Text (Text)
 import Data.Text qualified as Text
+import Gcode.ArcCentre (arcCentre)
 import Gcode.Block
+import Gcode.BlockWords
+import Gcode.ControlMotion
+import Gcode.Cycle qualified as Cycle
 import Gcode.Dialect
 import Gcode.ModalState
 import Geometry.Carrier (Sense (..))
 import Machine.ProgramForm (Dialect (..), Lathe (..), ProgramForm (..), Retract (..))
 
--- | One action, with the state in which it happens.
-data Step = Step
-  { -- | number of the line, from 1
-    line :: Int,
-    state :: ModalState,
-    action :: Action
-  }
-  deriving stock (Eq, Show)
-
-data Action
-  = Travels Travel
-  | -- | the control takes the tool with this number, at a position; Nothing if no T word came
-    -- before
-    Changes ToolPlace (Maybe Int)
-  | Dwells Seconds
-  | -- | M0
-    Stops
-  | -- | M1
-    StopsOnDemand
-  | -- | the file ends without a word that ends the program
-    FileEnds
-  | -- | M2 or M30
-    Ends
-  deriving stock (Eq, Show)
-
--- | A motion.
-data Travel = Travel
-  { mode :: MotionMode,
-    from :: ToolPlace,
-    to :: ToolPlace,
-    -- | centre of an arc in its plane, by the two axes of the plane in the order x y or z x
-    about :: Maybe (Int, Int)
-  }
-  deriving stock (Eq, Show)
-
--- | Position of the tool, along the axes X, Y and Z of the control.
-data ToolPlace = ToolPlace {placeX :: Coordinate, placeY :: Coordinate, placeZ :: Coordinate}
-  deriving stock (Eq, Show)
-
--- | Position along one axis.
-data Coordinate
-  = -- | unknown: where the machine stands
-    Anywhere
-  | -- | in machine coordinates, in picometres; Nothing for the reference point. It is not known
-    -- where this is in the work
-    InMachine (Maybe Int)
-  | -- | the retract height, above everything
-    Retracted
-  | -- | in work coordinates, in picometres
-    At Int
-  deriving stock (Eq, Show)
-
 -- | State between two lines.
-data Running = Running {modal :: ModalState, place :: ToolPlace, isEnded :: Bool}
+data Running = Running
+  { modal :: ModalState,
+    place :: ToolPlace,
+    isEnded :: Bool,
+    -- | the sizes of the canned cycle in force that stay for its next lines, by their letters:
+    -- lengths in picometres, and the time in seconds
+    cycleSizes :: [(Char, GcodeNumber)],
+    -- | height before the canned cycles in force, in picometres; Nothing outside of them
+    cycleLevel :: Maybe Int
+  }
 
 -- | Actions of a file in order; a fault for the first line that is not understood. @tool@ is the
 -- number of the tool that the operator has put into the spindle for this file, if there is one.
@@ -101,7 +64,9 @@ run form tool first text = do
       Running
         { modal = state0 {toolInSpindle = maybe Unset (SetAt 0) tool},
           place = ToolPlace Anywhere Anywhere Anywhere,
-          isEnded = False
+          isEnded = False,
+          cycleSizes = [],
+          cycleLevel = Nothing
         }
     next (now, done) b = do
       (now', steps) <- runBlock form now b
@@ -123,16 +88,6 @@ checkLengths form first text = case filter (isTooLong . snd) (zip [first ..] (Te
   where
     isTooLong l = Text.length (Text.dropWhileEnd (== '\r') l) > mostCharacters form
 
--- | Words of a line, sorted by what they do.
-data Sorted = Sorted
-  { block :: GcodeBlock,
-    -- | the numbers of the G words and of the M words, in tenths
-    gCodes :: [Int],
-    mCodes :: [Int],
-    -- | the words of all other letters
-    others :: [GcodeWord]
-  }
-
 -- | Runs one line.
 runBlock :: ProgramForm -> Running -> GcodeBlock -> Either Fault (Running, [Step])
 runBlock form now b = do
@@ -140,7 +95,7 @@ runBlock form now b = do
   when (isEnded now && not (null (gcodeWords b))) (faultAt b 1 BehindEnd)
   before <- modesBefore (dialect form) s (modal now)
   (changed, changeSteps) <- toolChange form s now {modal = before}
-  let running = modesBehind form s changed
+  let running = cyclesBehind now (modesBehind form s changed)
   dwelt <- dwellOf form s
   (moved, motionSteps) <- motionOf form s running
   let stopSteps =
@@ -154,80 +109,6 @@ runBlock form now b = do
     )
   where
     step r = Step (lineNumber b) (modal r)
-
--- | Sorts the words of a line, and refuses words that the control does not have, and repetitions.
-sorted :: ProgramForm -> GcodeBlock -> Either Fault Sorted
-sorted form b = do
-  checkForm form b
-  gs <- codes 'G' (gKnowledge (dialect form)) (groupOfG (dialect form))
-  ms <- codes 'M' (mKnowledge (dialect form)) (groupOfM (dialect form))
-  let others = [w | w <- gcodeWords b, letter w `notElem` ("GMN" :: String)]
-  forM_ (gcodeWords b) $ \w ->
-    unless
-      (letter w `elem` letters (dialect form) && not (isJust (lathe form) && isOfY w))
-      (faultOf b w (UnknownWord (wordText w)))
-  forM_ (zip [0 ..] others) $ \(k, w) ->
-    when
-      (letter w `elem` map letter (take k others))
-      (faultOf b w (RepeatedWord (Text.singleton (letter w))))
-  pure Sorted {block = b, gCodes = gs, mCodes = ms, others}
-  where
-    -- A lathe has no axis Y.
-    isOfY w = letter w `elem` ("YJ" :: String)
-    codes c knowledge group = do
-      let found = [w | w <- gcodeWords b, letter w == c]
-      numbers <- traverse (code knowledge) found
-      forM_ (zip3 [0 ..] found numbers) $ \(k, w, n) ->
-        when
-          (group n `elem` map group (take k numbers) && group n > 0 || n `elem` take k numbers)
-          (faultOf b w (RepeatedWord (wordText w)))
-      pure numbers
-    code knowledge w = case isWhole (tenfold (number w)) of
-      Just n -> case knowledge n of
-        Known -> Right n
-        Unproven -> faultOf b w (UnprovenWord (wordText w))
-        Absent -> faultOf b w (UnknownWord (wordText w))
-      Nothing -> faultOf b w (UnknownWord (wordText w))
-    tenfold (GcodeNumber d k) = GcodeNumber (10 * d) k
-
--- | Refuses lines that the operator may leave out, and for Marlin lines with two commands or with
--- words before the command.
-checkForm :: ProgramForm -> GcodeBlock -> Either Fault ()
-checkForm form b
-  | isOptional b && dialect form `elem` [LinuxCnc, Fanuc] = faultAt b 1 (UnprovenWord "/")
-  | dialect form == Marlin, _ : w : _ <- commandWords = faultOf b w (RepeatedWord (wordText w))
-  | dialect form == Marlin,
-    w : _ <- gcodeWords b,
-    letter w `notElem` ("GMT" :: String) =
-    faultOf b w NoMotionMode
-  | dialect form == Marlin,
-    [w] <- commandWords,
-    letter w == 'M',
-    isWhole (number w) `elem` [Just 0, Just 1],
-    -- With a time the control goes on by itself.
-    other : _ <- filter (/= w) (gcodeWords b) =
-    faultOf b other (UnprovenWord (wordText other))
-  | dialect form == Fanuc,
-    w : _ <- filter isWithoutPoint (gcodeWords b) =
-    faultOf b w (PointMissing (wordText w))
-  | otherwise = Right ()
-  where
-    isWithoutPoint w =
-      letter w `elem` ("XYZIJKRFQ" :: String) && not (hasPoint w) && digits (number w) /= 0
-    commandWords = [w | w <- gcodeWords b, letter w `elem` ("GM" :: String)]
-
-faultAt :: GcodeBlock -> Int -> FaultReason -> Either Fault a
-faultAt b at reason = Left (Fault (lineNumber b) at reason)
-
-faultOf :: GcodeBlock -> GcodeWord -> FaultReason -> Either Fault a
-faultOf b w = faultAt b (column w)
-
-wordText :: GcodeWord -> Text
-wordText w = Text.singleton (letter w) <> numberText (number w)
-
--- | Number of the first word with a letter.
-given :: Char -> Sorted -> Maybe GcodeNumber
-given c s = listToMaybe [number w | w <- others s, letter w == c]
 
 -- | The modes that are set before a tool change: feed mode, feed, speed and selected tool.
 modesBefore :: Dialect -> Sorted -> ModalState -> Either Fault ModalState
@@ -270,10 +151,6 @@ modesBefore dialect' s m = do
         | t >= 0 -> Right t
         | otherwise -> faultAt (block s) 1 (NegativeNumber "T")
       Nothing -> faultAt (block s) 1 (NotWhole "T")
-
--- | Value of a number as a floating-point number.
-decimal :: GcodeNumber -> Double
-decimal (GcodeNumber d k) = fromIntegral d / 10 ^ k
 
 -- | Part of the state after a line with these codes: the value of the code that it has, else the
 -- value before.
@@ -332,9 +209,19 @@ modesBehind form s now = now {modal = changed, place = placeAfter form m changed
           workOffset = choose (workOffset m) [(10 * k, k) | k <- [54 .. 59]],
           pathMode = choose (pathMode m) [(610, ExactPath), (611, ExactPath), (640, blended s m)],
           distances = choose (distances m) [(900, Absolute), (910, Incremental)],
+          returnsToPlane = choose (returnsToPlane m) [(980, False), (990, True)],
           arcCentres = choose (arcCentres m) [(901, Absolute), (911, Incremental)],
           motionMode = motionAfter s m
         }
+
+-- | The sizes of canned cycles after a line that follows the state @before@: those of another cycle
+-- do not count.
+cyclesBehind :: Running -> Running -> Running
+cyclesBehind before now = case valueOf (motionMode (modal now)) of
+  Just (CycleMode c)
+    | valueOf (motionMode (modal before)) == Just (CycleMode c) -> now
+    | otherwise -> now {cycleSizes = []}
+  _ -> now {cycleSizes = [], cycleLevel = Nothing}
 
 -- | The length of the tool after a line.
 lengthAfter :: Sorted -> ModalState -> Modal ToolLength
@@ -363,11 +250,13 @@ motionAfter s m =
     (lineNumber (block s))
     (gCodes s)
     (if 800 `elem` gCodes s then Unset else motionMode m)
-    [ (0, RapidMode),
-      (10, LinearMode),
-      (20, ArcMode Clockwise),
-      (30, ArcMode CounterClockwise)
-    ]
+    ( [ (0, RapidMode),
+        (10, LinearMode),
+        (20, ArcMode Clockwise),
+        (30, ArcMode CounterClockwise)
+      ]
+        <> [(Cycle.codeOf c, CycleMode c) | c <- [minBound ..]]
+    )
 
 -- | The position in work coordinates after a change of the state from @before@ to @after@: unknown
 -- where the zero of the coordinates has changed.
@@ -399,20 +288,6 @@ coolantAfter n codes before
       | valueOf before `elem` [Just other, Just MistAndFlood] = SetAt n MistAndFlood
       | otherwise = SetAt n new
 
--- | Value in mm of a number, in the units of the state.
-mmOfNumber :: ModalState -> GcodeNumber -> Double
-mmOfNumber m k = decimal k * (if valueOf (units m) == Just Inches then 25.4 else 1)
-
--- | Value in picometres of a number, in the units of the state.
-picometresOf :: ModalState -> GcodeNumber -> Int
-picometresOf m k = case valueOf (units m) of
-  Just Inches -> scaled 8 k * 254
-  _ -> scaled 8 k * 10
-
--- | Value in mm of a count of picometres.
-picometres :: Int -> Double
-picometres n = fromIntegral n / 1.0e9
-
 -- | The dwell of a line.
 dwellOf :: ProgramForm -> Sorted -> Either Fault (Maybe Seconds)
 dwellOf form s
@@ -433,12 +308,15 @@ motionOf form s now
   | 40 `elem` gCodes s = wordsBesideDwell form s >> Right (now, [])
   | 280 `elem` gCodes s = toReference form s now
   | 530 `elem` gCodes s && null axisWords = faultAt b 1 (WordMissing "Z0" "G53")
+  | Just (CycleMode c) <- valueOf (motionMode (modal now)),
+    530 `notElem` gCodes s =
+    cycleOf form c s now
   | null axisWords && null arcWords = unusedWords s now >> Right (now, [])
   | otherwise = do
     mode' <- maybe (faultAt b 1 NoMotionMode) Right (valueOf (motionMode (modal now)))
     target <- targetOf form s now
     centre' <- case mode' of
-      ArcMode sense -> Just <$> arcCentre s sense now target
+      ArcMode sense -> Just <$> arcCentre s sense (modal now) (place now) target
       _ -> Right Nothing
     unusedWords s now
     let travel = Travel mode' (place now) target centre'
@@ -449,6 +327,129 @@ motionOf form s now
     b = block s
     axisWords = [w | w <- others s, letter w `elem` ("XYZ" :: String)]
     arcWords = [w | w <- others s, letter w `elem` ("IJKR" :: String), isArc (modal now)]
+
+-- | Carries out a canned cycle: the tool goes over the hole, down to the height R, and makes the
+-- hole. A line without words of positions or of R only sets what stays for the next lines.
+cycleOf :: ProgramForm -> CannedCycle -> Sorted -> Running -> Either Fault (Running, [Step])
+cycleOf form c s now
+  | null moving && Cycle.codeOf c `notElem` gCodes s = unusedWords s now >> Right (kept, [])
+  | otherwise = do
+    unless (valueOf (distances m) == Just Absolute) (faultAt b 1 (WordMissing "G90" (Cycle.name c)))
+    unless (valueOf (plane m) == Just PlaneXY) (faultAt b 1 (WordMissing "G17" (Cycle.name c)))
+    unusedWords s now
+    target <- targetOf form s now
+    let start = place now
+        beside = (placeX target, placeY target) /= (placeX start, placeY start)
+    z <- case (placeX target, placeY target, placeZ start) of
+      (At _, At _, At z) -> Right z
+      (At _, At _, _) -> faultAt b 1 (UnknownPosition 'Z')
+      (At _, _, _) -> faultAt b 1 (UnknownPosition 'Y')
+      _ -> faultAt b 1 (UnknownPosition 'X')
+    when (c == SynchronousCycle && beside) (faultAt b 1 (UnprovenWord (Cycle.name c)))
+    (sizes, level) <- cycleForm form c b kept z
+    pitch <- traverse (cycleSize c b kept) ['K' | c == SynchronousCycle]
+    let rises = start {placeZ = At (max z (Cycle.plane sizes))}
+        over = target {placeZ = placeZ rises}
+        rapid p p' = Step (lineNumber b) m (Travels (Travel RapidMode p p' Nothing))
+        (end, made) =
+          foldl'
+            (cycleStep (lineNumber b) (fedBy pitch m))
+            ((over, m), [])
+            (Cycle.RapidTo (Cycle.plane sizes) : Cycle.steps sizes)
+    pure
+      ( kept {place = fst end, cycleLevel = Just level},
+        [rapid p p' | (p, p') <- [(start, rises), (rises, over)], p /= p'] <> reverse made
+      )
+  where
+    b = block s
+    m = modal now
+    moving = [w | w <- others s, letter w `elem` ("XYZR" :: String)]
+    written = [(letter w, number w) | w <- others s, letter w `elem` ("ZRQPK" :: String)]
+    kept = now {cycleSizes = written <> cycleSizes now}
+
+-- | A size of a cycle, by its letter, from this line or from one before it.
+cycleSize :: CannedCycle -> GcodeBlock -> Running -> Char -> Either Fault GcodeNumber
+cycleSize c b now l =
+  maybe
+    (faultAt b 1 (WordMissing (Text.singleton l) (Cycle.name c)))
+    Right
+    (lookup l (cycleSizes now))
+
+-- | The sizes of a cycle that begins at the height @z@, and the height to which G98 leads back.
+cycleForm ::
+  ProgramForm ->
+  CannedCycle ->
+  GcodeBlock ->
+  Running ->
+  Int ->
+  Either Fault (Cycle.CycleForm Int, Int)
+cycleForm form c b now z = do
+  bottom <- inPicometres <$> needed 'Z'
+  r <- if c == SynchronousCycle then Right z else inPicometres <$> needed 'R'
+  q <- traverse (fmap inPicometres . needed) ['Q' | c `elem` [PeckingCycle, ChipCycle]]
+  traverse_ needed ['P' | c == DwellingCycle]
+  -- Controls differ in the way up to a height R above the tool.
+  when (r < bottom || any (<= 0) q || z < r && dialect form /= LinuxCnc) (faultAt b 1 BadCycle)
+  let level = maximum [r, z, fromMaybe z (cycleLevel now)]
+  final <- case valueOf (returnsToPlane (modal now)) of
+    Just True -> Right r
+    Just False -> Right level
+    Nothing
+      | level == r -> Right r
+      | otherwise -> faultAt b 1 (WordMissing "G98" (Cycle.name c))
+  pure
+    ( Cycle.CycleForm
+        { Cycle.canned = c,
+          Cycle.dialect = dialect form,
+          Cycle.plane = r,
+          Cycle.bottom = bottom,
+          Cycle.final = if c == SynchronousCycle then r else final,
+          Cycle.peck = listToMaybe q,
+          Cycle.back = maybe 0 lengthOf (join (lookup c (Cycle.known (cycles form)))),
+          Cycle.wait =
+            Seconds . (* dwellPerUnit (dialect form)) . decimal <$> lookup 'P' (cycleSizes now)
+        },
+      level
+    )
+  where
+    needed = cycleSize c b now
+    inPicometres = picometresOf (modal now)
+    lengthOf (Mm l) = round (l * 1.0e9)
+
+-- | State in which a tap is fed in step with the spindle, by the pitch; other cycles have the feed
+-- in force.
+fedBy :: [GcodeNumber] -> ModalState -> ModalState
+fedBy pitch m = case (pitch, valueOf (speed m)) of
+  ([k], Just n) ->
+    m {feed = maybe Unset (`SetAt` (mmOfNumber m k * n)) (lineOf (speed m)), feedMode = perMinute}
+  _ -> m
+  where
+    perMinute = maybe (SetAt 0 PerMinute) (`SetAt` PerMinute) (lineOf (feedMode m))
+
+-- | Carries out a step of a canned cycle, after the place and the state before it and the steps
+-- before it, of which the last one comes first. @fed@ is the state with the feed of the cycle.
+cycleStep ::
+  Int ->
+  ModalState ->
+  ((ToolPlace, ModalState), [Step]) ->
+  Cycle.CycleStep Int ->
+  ((ToolPlace, ModalState), [Step])
+cycleStep n fed ((at, m), done) step = case step of
+  Cycle.RapidTo z -> go RapidMode m z
+  Cycle.FeedTo z -> go LinearMode m {feed = feed fed, feedMode = feedMode fed} z
+  Cycle.Wait t -> ((at, m), Step n m (Dwells t) : done)
+  Cycle.Reversal -> ((at, m {spindle = turned (spindle m)}), done)
+  Cycle.Forward -> ((at, m {spindle = turned (spindle m)}), done)
+  where
+    go kind' m' z
+      | to' == at = ((at, m), done)
+      | otherwise = ((to', m), Step n m' (Travels (Travel kind' at to' Nothing)) : done)
+      where
+        to' = at {placeZ = At z}
+    turned part = case part of
+      SetAt k (SpindleTurning Clockwise) -> SetAt k (SpindleTurning CounterClockwise)
+      SetAt k (SpindleTurning CounterClockwise) -> SetAt k (SpindleTurning Clockwise)
+      other -> other
 
 -- | True if the kind of motion in force is an arc.
 isArc :: ModalState -> Bool
@@ -514,62 +515,6 @@ toReference form s now
         (if names 'Z' then Retracted else placeZ p)
     travel = Travel RapidMode p target Nothing
 
--- | Centre of an arc, in the plane of the state.
-arcCentre :: Sorted -> Sense -> Running -> ToolPlace -> Either Fault (Int, Int)
-arcCentre s sense now target = do
-  (begin, finish) <- maybe (faultAt b 1 (UnknownPosition 'X')) Right ends
-  -- LinuxCNC refuses the offset along the axis of the plane, and offsets beside a radius.
-  case [w | w <- others s, letter w `elem` useless] of
-    w : _ -> faultOf b w (UnusedWord (Text.singleton (letter w)))
-    [] -> Right ()
-  case given 'R' s of
-    Just r -> maybe (faultAt b 1 BadArc) Right (centreByRadius sense r' begin finish)
-      where
-        r' = picometresOf m r
-    Nothing -> do
-      let offsets = map (`given` s) letters'
-      unless (any isJust offsets) (faultAt b 1 BadArc)
-      let centre' = byOffsets begin (map (fmap (picometresOf m)) offsets)
-      when (centre' == begin || centre' == finish) (faultAt b 1 BadArc)
-      pure centre'
-  where
-    b = block s
-    m = modal now
-    useless
-      | isJust (given 'R' s) = "IJK"
-      | otherwise = filter (`notElem` letters') "IJK"
-    inPlane p = case valueOf (plane m) of
-      Just PlaneZX -> (placeZ p, placeX p)
-      Just PlaneYZ -> (placeY p, placeZ p)
-      _ -> (placeX p, placeY p)
-    letters' = case valueOf (plane m) of
-      Just PlaneZX -> ['K', 'I']
-      Just PlaneYZ -> ['J', 'K']
-      _ -> ['I', 'J']
-    ends = case (inPlane (place now), inPlane target) of
-      ((At a, At c), (At d, At e)) -> Just ((a, c), (d, e))
-      _ -> Nothing
-    byOffsets (x, y) offsets = case offsets of
-      [i, j]
-        | valueOf (arcCentres m) == Just Absolute -> (fromMaybe x i, fromMaybe y j)
-        | otherwise -> (x + fromMaybe 0 i, y + fromMaybe 0 j)
-      _ -> (x, y)
-
--- | Centre of an arc by its radius: of the two centres, a positive radius takes the one with the
--- smaller sweep. Nothing if the ends are equal or too far from one another.
-centreByRadius :: Sense -> Int -> (Int, Int) -> (Int, Int) -> Maybe (Int, Int)
-centreByRadius sense radius (x, y) (x', y')
-  | chord == 0 || h2 < -1.0e-6 * r * r = Nothing
-  | otherwise = Just (round (mx - k * dy), round (my + k * dx))
-  where
-    r = fromIntegral radius :: Double
-    (dx, dy) = (fromIntegral (x' - x), fromIntegral (y' - y)) :: (Double, Double)
-    chord = sqrt (dx * dx + dy * dy)
-    (mx, my) = (fromIntegral x + dx / 2, fromIntegral y + dy / 2)
-    h2 = r * r - chord * chord / 4
-    k = side * sqrt (max 0 h2) / chord
-    side = if (sense == CounterClockwise) == (radius > 0) then 1 else -1
-
 -- | Refuses words of motions in the line of a dwell: some controls would move as well. Fanuc has
 -- the time in X.
 wordsBesideDwell :: ProgramForm -> Sorted -> Either Fault ()
@@ -589,6 +534,9 @@ unusedWords s now = case mapMaybe unused (others s) of
     gs = gCodes s
     unused w
       | letter w `elem` ("XYZFSTNO" :: String) = Nothing
+      | Just (CycleMode c) <- valueOf (motionMode (modal now)),
+        letter w `elem` Cycle.words' c =
+        Nothing
       | letter w `elem` ("IJKR" :: String) = if isArc (modal now) then Nothing else Just w
       | letter w == 'H' = if 430 `elem` gs then Nothing else Just w
       | letter w == 'P' = if any (`elem` gs) [40, 640] then Nothing else Just w

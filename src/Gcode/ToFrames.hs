@@ -321,6 +321,8 @@ frameOf machine step travel begin target = case mode travel of
       (plain {motion = Circular sense, feedCode, centre}, 2 * off)
     -- An arc in another plane is a finding of its own.
     | otherwise -> (plain {motion = Linear, feedCode}, 0)
+  -- The moves of canned cycles are rapid moves and lines.
+  CycleMode _ -> (plain {motion = Linear, feedCode}, 0)
   where
     plain = (Frame.commandFrame []) {increment = target - begin}
     feedCode = feedCodeOf machine (state step)

@@ -15,7 +15,7 @@ import Base.Decimal qualified as Decimal
 import Base.PulseVector (Pulses2 (..), Pulses3 (..))
 import Base.Quantity (LengthUnit (..), Mm (..), Pulses (..), Seconds (..))
 import Data.Map.Strict qualified as Map
-import Data.Maybe (fromMaybe, isJust, listToMaybe, mapMaybe, maybeToList)
+import Data.Maybe (fromMaybe, isJust, isNothing, listToMaybe, mapMaybe, maybeToList)
 import Data.Set qualified as Set
 import Data.Text (Text)
 import Data.Text qualified as Text
@@ -23,11 +23,16 @@ import Frame.Command qualified as Command
 import Frame.Frame (Frame (..), FrameMotion (..), FrameProgram (..), PlannedFrame (..), passNumber)
 import Frame.Frame qualified as Frame
 import Gcode.CommentText qualified as CommentText
+import Gcode.Cycle qualified as Cycle
 import Gcode.Dialect qualified as Dialect
 import Gcode.FileTime qualified as FileTime
 import Gcode.Heading (FileHeading (..))
 import Gcode.Heading qualified as Heading
+import Gcode.HoleCycle (FoundCycle)
+import Gcode.HoleCycle qualified as HoleCycle
+import Gcode.ModalState (CannedCycle (..))
 import Gcode.ToolTip qualified as ToolTip
+import Gcode.WordText
 import Geometry.Carrier qualified as Carrier
 import Machine.Machine
   ( Axis (..),
@@ -39,9 +44,7 @@ import Machine.Machine
     FeedCode (..),
     Machine,
     MachineName (..),
-    NumberForm (decimals, digits),
     ProgramForm (..),
-    Word' (address),
   )
 import Machine.Machine qualified as Machine
 import Machine.ProgramForm (Dialect (..), Lathe (..), Retract (..), XMeaning (..))
@@ -67,7 +70,11 @@ data Writing = Writing
     -- | from the centre of the tool to the point that the control leads
     tipOffset :: Pulses3,
     -- | true after a cut on the inside of a turned part
-    isInside :: Bool
+    isInside :: Bool,
+    -- | the canned cycle in force, and its words that stay
+    cycleNow :: Maybe (CannedCycle, [Text]),
+    -- | spindle words of the next frame that the control carries out by itself, after a tap
+    restored :: Maybe CommandWordsText
   }
 
 -- | Files of a program. @bound@ is the largest deviation in mm from the path that the control may
@@ -170,7 +177,9 @@ fileLines context number part =
           isCoolantPaused = isCooled part,
           turns = False,
           tipOffset = tipOf context (toolOf part),
-          isInside = False
+          isInside = False,
+          cycleNow = Nothing,
+          restored = Nothing
         }
 
 -- | Position at which the tool comes down first: after a rapid move straight up, if that is the
@@ -316,10 +325,6 @@ retractLines context@Context {form, heading} inside = case retract form of
 inOrder :: Bool -> [Text] -> [Text]
 inOrder inside ls = if inside then reverse ls else ls
 
--- | Factor of the words of X: 2 on a lathe whose words are diameters.
-xFactor :: Num a => ProgramForm -> a
-xFactor form = if (meaningOfX <$> lathe form) == Just XDiameter then 2 else 1
-
 -- | Offset of the point that the control leads from the centre of a tool, in pulses.
 tipOf :: Context -> Maybe Int -> Pulses3
 tipOf Context {machine, form, heading} tool = case lathe form of
@@ -357,16 +362,66 @@ commandText machine (name, n) = scaledText machine (Machine.Command name) (Pulse
 -- | Lines of the frames, and the state after them.
 frameLines :: Context -> Writing -> [PlannedFrame] -> (Writing, [Text])
 frameLines context now frames = case frames of
-  [] -> (now, [])
+  [] -> (ended, stop)
+  _
+    | not (isAway now),
+      Just c <- HoleCycle.found (machine context) (form context) taps before' frames ->
+      let (moved, own) = cycleLines context now c
+          (final, behind) = frameLines context moved (HoleCycle.others c)
+       in (final, own <> behind)
   p@PlannedFrame {frame = f} : more ->
-    let (commanded, before) = actionLines context now (actionsOf (machine context) f)
-        (moved, own) = motionLines context commanded f
+    let (commanded, before) = actionLines context ended (actionsOf (machine context) f)
+        (moved, own) = motionLines context commanded {restored = Nothing} f
         (final, behind) = frameLines context moved {isInside = isInsideAt p moved} more
-     in (final, before <> own <> behind)
+     in (final, stop <> before <> own <> behind)
   where
+    taps n = Map.lookup n (tapNeeds (heading context))
+    before' = (at now, restored now)
+    stop = ["G80" | isJust (cycleNow now)]
+    ended = now {cycleNow = Nothing}
     isInsideAt p now' = case passNumber (role p) of
       Just n -> Set.member n (insidePasses (heading context))
       Nothing -> isInside now'
+
+-- | Line of a canned cycle. The words that stay in force are written only if they change.
+cycleLines :: Context -> Writing -> FoundCycle -> (Writing, [Text])
+cycleLines context@Context {machine, form} now c =
+  (after, [Text.unwords (code <> place <> lasting) <> feedText])
+  where
+    sizes = HoleCycle.form c
+    cycle' = Cycle.canned sizes
+    isNew = fmap fst (cycleNow now) /= Just cycle'
+    isSynchronous = cycle' == SynchronousCycle
+    code = ["G98" | isNothing (cycleNow now), not isSynchronous] <> [Cycle.name cycle' | isNew]
+    place
+      | isSynchronous = []
+      | otherwise = mapMaybe (axisText machine form (HoleCycle.over c)) [X, Y]
+    lasting
+      | Just (cycle', sizeWords) == cycleNow now = []
+      | otherwise = sizeWords
+    sizeWords =
+      ["Z" <> heightText machine (Cycle.bottom sizes)]
+        <> ["R" <> heightText machine (Cycle.plane sizes) | not isSynchronous]
+        <> ["P" <> waitText form t | Just t <- [Cycle.wait sizes]]
+        <> [ "Q" <> heightText machine q
+             | cycle' `elem` [PeckingCycle, ChipCycle],
+               q <- maybeToList (Cycle.peck sizes)
+           ]
+        <> [ "K" <> lengthText form (HoleCycle.tapPitch t)
+             | isSynchronous,
+               t <- maybeToList (HoleCycle.tap c)
+           ]
+    feedText
+      | isSynchronous = ""
+      | otherwise = feedWord context (feedWritten now) (HoleCycle.feed c)
+    after =
+      now
+        { at = HoleCycle.over c,
+          isCoolantPaused = False,
+          cycleNow = if isSynchronous then Nothing else Just (cycle', sizeWords),
+          restored = HoleCycle.restored c,
+          feedWritten = if isSynchronous then feedWritten now else Just (HoleCycle.feed c)
+        }
 
 -- | Meaning of the commands of a frame.
 data ControlAction
@@ -437,6 +492,7 @@ actionLine context@Context {machine, form, heading} now action = case action of
         <> ["M9" | hasCoolant now]
         <> toolLines context (Just n)
     )
+  Turning ws | Just ws == restored now -> (now {turns = True}, [])
   Turning ws ->
     ( now {turns = True},
       [turnLine, dwellLine form (spinUp form)]
@@ -456,7 +512,11 @@ actionLine context@Context {machine, form, heading} now action = case action of
 
 -- | Line that waits for a time.
 dwellLine :: ProgramForm -> Seconds -> Text
-dwellLine form (Seconds t) = "G4 P" <> Decimal.short 3 (t / Dialect.dwellPerUnit (dialect form))
+dwellLine form t = "G4 P" <> waitText form t
+
+-- | Number of a time.
+waitText :: ProgramForm -> Seconds -> Text
+waitText form (Seconds t) = Decimal.short 3 (t / Dialect.dwellPerUnit (dialect form))
 
 -- | Lines of the motion of a frame. A tool that is away comes down first.
 motionLines :: Context -> Writing -> Frame -> (Writing, [Text])
@@ -471,10 +531,7 @@ motionLines context@Context {form} now f
     own =
       motionText context (end + tipOffset now) f <> case motion f of
         Rapid -> rapidFeed context
-        _ -> feedText
-    feedText
-      | written == Just (feedCode f) = ""
-      | otherwise = " F" <> feedNumber context (feedCode f)
+        _ -> feedWord context written (feedCode f)
     modes = [if perTurn then "G95" else "G94" | motion f /= Rapid, perTurn /= isPerTurn now]
     perTurn = case feedCode f of
       TurnCode _ -> True
@@ -494,18 +551,18 @@ motionLines context@Context {form} now f
 -- | Lines that take a tool from the retract height to its position: x and y first, then z. On a
 -- lathe the axis that left the work first comes back last.
 descentLines :: Context -> Writing -> [Text]
-descentLines context@Context {form} now =
+descentLines context@Context {machine, form} now =
   ["M8" | isCoolantPaused now]
     <> [ "G0 " <> Text.unwords (mapMaybe here axes) <> rapidFeed context
          | axes <- if isJust (lathe form) then latheAxes else [[X, Y], [Z]]
        ]
   where
     latheAxes = if isInside now then [[Y], [X]] else [[X], [Y]]
-    here = axisText context (at now + tipOffset now)
+    here = axisText machine form (at now + tipOffset now)
 
 -- | Words of the motion of a frame to a position, without its feed.
 motionText :: Context -> Pulses3 -> Frame -> Text
-motionText context@Context {machine} end f = Text.unwords (motionWord : axisWords <> centreWords)
+motionText Context {machine, form} end f = Text.unwords (motionWord : axisWords <> centreWords)
   where
     motionWord = case motion f of
       Rapid -> "G0"
@@ -516,7 +573,7 @@ motionText context@Context {machine} end f = Text.unwords (motionWord : axisWord
       [ word
         | axis <- [X, Y, Z],
           component axis (increment f) /= 0 || isFullCircle && axis /= Z,
-          word <- maybeToList (axisText context end axis)
+          word <- maybeToList (axisText machine form end axis)
       ]
     isFullCircle = let Pulses3 x y _ = increment f in x == 0 && y == 0
     centreWords = case motion f of
@@ -525,50 +582,14 @@ motionText context@Context {machine} end f = Text.unwords (motionWord : axisWord
          in [scaledText machine (Centre axis) n | (axis, n) <- [(X, i), (Y, j)]]
       _ -> []
 
--- | Number of a feed word. Some controls want a point in it.
-feedNumber :: Context -> FeedCode -> Text
-feedNumber Context {machine, form} code = case code of
-  FeedCode n -> decimalText places n <> (if dialect form == Fanuc && places == 0 then "." else "")
-  TurnCode _ -> maybe "" (Decimal.shortIn (fileUnit form) 6 . Mm) (Machine.forTurn machine code)
-  where
-    places = maybe 0 (decimals . Machine.form) (Machine.wordFor machine FeedWord)
+-- | Feed word of a cut, if its feed is not in force.
+feedWord :: Context -> Maybe FeedCode -> FeedCode -> Text
+feedWord Context {machine, form} written code
+  | written == Just code = ""
+  | otherwise = " F" <> feedNumber machine form code
 
 -- | Feed word of a rapid move, on controls that need one.
 rapidFeed :: Context -> Text
-rapidFeed context@Context {machine, form} = case dialect form of
-  Marlin -> " F" <> feedNumber context (Machine.rapidCode machine)
+rapidFeed Context {machine, form} = case dialect form of
+  Marlin -> " F" <> feedNumber machine form (Machine.rapidCode machine)
   _ -> ""
-
-component :: Axis -> Pulses3 -> Pulses
-component axis (Pulses3 x y z) = case axis of
-  X -> x
-  Y -> y
-  Z -> z
-
--- | Word of an axis at a position in pulses; Nothing if the machine lacks the axis.
-axisText :: Context -> Pulses3 -> Axis -> Maybe Text
-axisText Context {machine, form} position axis
-  | isJust (Machine.wordFor machine (Along axis)) =
-    Just (scaledText machine (Along axis) (factor * component axis position))
-  | otherwise = Nothing
-  where
-    factor = if axis == Y then xFactor form else 1
-
--- | Word with its number in pulses, the last decimal of which is a pulse.
-scaledText :: Machine -> Content -> Pulses -> Text
-scaledText machine content' (Pulses n) = case Machine.wordFor machine content' of
-  Nothing -> ""
-  Just word
-    -- The address is the whole command.
-    | digits (Machine.form word) == 0 -> address word
-    | otherwise -> address word <> decimalText (decimals (Machine.form word)) n
-
--- | Number with a count of decimals, from its value in units of the last decimal.
-decimalText :: Int -> Int -> Text
-decimalText count n
-  | count == 0 = sign <> padded
-  | otherwise = sign <> whole <> "." <> fraction
-  where
-    sign = if n < 0 then "-" else ""
-    padded = Text.justifyRight (count + 1) '0' (Decimal.whole (abs n))
-    (whole, fraction) = Text.splitAt (Text.length padded - count) padded

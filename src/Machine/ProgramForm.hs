@@ -7,6 +7,10 @@ module Machine.ProgramForm
     RapidPath (..),
     Lathe (..),
     XMeaning (..),
+    HoleCycles (..),
+    PlainCycle (..),
+    TapControl (..),
+    noCycles,
     takesLengths,
     changesTools,
     hasPathMode,
@@ -30,6 +34,7 @@ data ProgramForm = ProgramForm
     -- | place of the tool change: x and y in machine coordinates, in mm; Nothing for a change where
     -- the tool is. The tool goes there at the retract height
     changePlace :: Maybe (Mm, Mm),
+    cycles :: HoleCycles,
     -- | unit of the numbers in a file
     fileUnit :: LengthUnit,
     -- | step of the line numbers; Nothing for lines without numbers
@@ -78,6 +83,42 @@ data XMeaning
   | -- | twice the distance (G7)
     XDiameter
   deriving stock (Eq, Show)
+
+-- | Canned cycles of the control for holes: one line makes a whole hole.
+data HoleCycles = HoleCycles
+  { plainCycles :: [PlainCycle],
+    -- | height above the end of a peck at which the rapid move down to the next one ends (G83);
+    -- Nothing if the control has no such cycle, or if the height depends on its settings
+    peckReturn :: Maybe Mm,
+    -- | rise after a peck that stays in the hole (G73); Nothing as for 'peckReturn'
+    chipReturn :: Maybe Mm,
+    tapControl :: Maybe TapControl
+  }
+  deriving stock (Eq, Show)
+
+-- | Cycle whose moves depend on nothing outside of the file.
+data PlainCycle
+  = -- | G81
+    DrillCycle
+  | -- | G82, with a pause at the bottom
+    DwellCycle
+  | -- | G85, up at the feed
+    ReamCycle
+  deriving stock (Eq, Show, Enum, Bounded)
+
+-- | Tapping by a control.
+data TapControl
+  = -- | in step with the spindle by G33.1; with a floating tap holder by G84
+    SynchronousTap
+  | -- | in step with the spindle by G84
+    RigidTap
+  | -- | by G84, with a floating tap holder only
+    FloatingTap
+  deriving stock (Eq, Show, Enum, Bounded)
+
+-- | A control without canned cycles.
+noCycles :: HoleCycles
+noCycles = HoleCycles [] Nothing Nothing Nothing
 
 -- | True if the control takes the length of a tool from its tool table (G43). Otherwise the
 -- operator touches off each tool.

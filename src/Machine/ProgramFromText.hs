@@ -8,6 +8,7 @@ where
 import Base.Quantity (LengthUnit (..), Mm (..), Seconds (..))
 import Base.Region (Located (..), Region)
 import Base.Result (Result)
+import Data.List (nub)
 import Data.Maybe (isNothing)
 import Machine.Error (Error (..), FrameFault (..))
 import Machine.FrameFromText (quotedText)
@@ -29,16 +30,15 @@ programForm s = do
     <*> optional "cross-slide" Nothing (fmap Just . latheFrom) section
     <*> required "characters" "characters 250" charactersFrom section
     <*> optional "change-at" Nothing (fmap Just . placeFrom) section
+    <*> cyclesFrom section
     <*> pure Millimetres
     <*> optional "line-numbers" Nothing (fmap Just . stepFrom) section
     <*> optional "remark" "" quotedText section
-    <* allowKeys
-      ( ["dialect", "retract", "spin-up", "rapid", "cross-slide", "characters", "change-at"]
-          <> ["line-numbers", "remark"]
-      )
-      []
-      section
+    <* allowKeys keys [] section
   where
+    keys =
+      ["dialect", "retract", "spin-up", "rapid", "cross-slide", "characters", "change-at"]
+        <> ["line-numbers", "remark", "cycles", "peck-return", "chip-return", "tapping"]
     dialectFrom =
       choice [("linuxcnc", LinuxCnc), ("grbl", Grbl), ("marlin", Marlin), ("fanuc", Fanuc)]
     rapidFrom = choice [("straight", StraightPath), ("box", BoxPath)]
@@ -50,15 +50,47 @@ programForm s = do
     oneStep args = case args of
       [a] -> wholeIn "the step of the line numbers" 1 100 a
       _ -> Nothing
-    placeFrom = withArguments ["change-at 0 mm 0 mm"] onePlace
-    onePlace args = case map value args of
-      [Number _ x, Word "mm", Number _ y, Word "mm"]
-        | abs x <= 10000, abs y <= 10000 -> Just (pure (Mm x, Mm y))
-      _ -> Nothing
     charactersFrom = withArguments ["characters 250"] oneCount
     oneCount args = case args of
       [a] -> wholeIn "the count of characters" 40 1000 a
       _ -> Nothing
+
+-- | Reads the place of the tool change.
+placeFrom :: Statement -> Result w Error (Mm, Mm)
+placeFrom = withArguments ["change-at 0 mm 0 mm"] place
+  where
+    place :: [Argument] -> Maybe (Result w Error (Mm, Mm))
+    place args = case map value args of
+      [Number _ x, Word "mm", Number _ y, Word "mm"]
+        | abs x <= 10000, abs y <= 10000 -> Just (pure (Mm x, Mm y))
+      _ -> Nothing
+
+-- | Reads the canned cycles for holes.
+cyclesFrom :: DescriptionSection -> Result w Error HoleCycles
+cyclesFrom section =
+  HoleCycles
+    <$> optional "cycles" [] (withArguments ["cycles drill dwell ream"] plain) section
+    <*> optional "peck-return" Nothing (fmap Just . heightOf "peck-return 0.254 mm") section
+    <*> optional "chip-return" Nothing (fmap Just . heightOf "chip-return 0.254 mm") section
+    <*> optional "tapping" Nothing (fmap Just . tapFrom) section
+  where
+    plain :: [Argument] -> Maybe (Result w Error [PlainCycle])
+    plain args = case traverse (named . value) args of
+      Just cs | not (null cs), length (nub cs) == length cs -> Just (pure cs)
+      _ -> Nothing
+    named a = case a of
+      Word "drill" -> Just DrillCycle
+      Word "dwell" -> Just DwellCycle
+      Word "ream" -> Just ReamCycle
+      _ -> Nothing
+    heightOf example = withArguments [example] height
+    height :: [Argument] -> Maybe (Result w Error Mm)
+    height args = case map value args of
+      [Number _ v, Word "mm"] | v > 0 && v <= 100 -> Just (pure (Mm v))
+      _ -> Nothing
+    tapFrom =
+      choice
+        [("synchronous", SynchronousTap), ("rigid", RigidTap), ("floating", FloatingTap)]
 
 -- | Reads the height to which the tool goes first.
 retractFrom :: Statement -> Result w Error Retract

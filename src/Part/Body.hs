@@ -5,7 +5,7 @@ module Part.Body
   )
 where
 
-import Base.Quantity (Mm (..), minus, plus, times)
+import Base.Quantity (Mm (..), Rad (..), minus, plus, times)
 import Base.Region (Located (..), Region)
 import Checked.Syntax (Expr)
 import Checked.Syntax qualified as Checked
@@ -15,14 +15,15 @@ import Data.Maybe (listToMaybe)
 import Data.Text (Text)
 import Geometry.Tolerance qualified as Tolerance
 import Part.BodyError (BodyMistake (..))
-import Part.Error (ValueFact (InBody, InRegion))
+import Part.Error (ValueFact (InBody, InHole, InRegion))
 import Part.Evaluation (Eval)
 import Part.Evaluation qualified as Evaluation
 import Part.Expression (Environment)
 import Part.Expression qualified as Expression
+import Part.HoleError (HoleMistake (NoPoint))
 import Part.Measure (lengthOf)
 import Part.Parameter qualified as Parameter
-import Part.Part (HolderCylinder (..), Solid (..), ToolBody (..), plainBody)
+import Part.Part (HolderCylinder (..), Solid (..), ToolBody (..))
 import Part.PlaneRegion qualified as PlaneRegion
 import Part.RegionBuiltin qualified as RegionBuiltin
 import Part.RegionError (RegionMistake (EmptyRegion))
@@ -54,19 +55,29 @@ toolBody env sizes = do
   out <- single "stickout" Parameter.StickOut [(at, e) | Located at (Checked.StickOut e) <- sizes]
   for_ ((,) <$> flutes <*> out) $ \((at, f), (there, s)) ->
     when (f > s) (mistake (FlutesTooLong at f (there, s)))
+  point <-
+    traverse (angleOf env . snd)
+      =<< once "angle" [(at, e) | Located at (Checked.PointAngle e) <- sizes]
   cylinders <- case (out, holders) of
     (_, []) -> pure []
     (Nothing, (at, _, _) : _) -> mistake (HolderWithoutStickOut at)
     (Just (_, s), _) -> stacked s holders
-  pure plainBody {fluteLength = snd <$> flutes, stickOut = snd <$> out, holder = cylinders}
+  pure
+    ToolBody
+      { fluteLength = snd <$> flutes,
+        stickOut = snd <$> out,
+        holder = cylinders,
+        pointAngle = point
+      }
   where
     holders = [(at, d, h) | Located at (Checked.HolderCylinder d h) <- sizes]
     single :: Text -> Parameter.LimitedQuantity -> [(Region, Expr)] -> Eval (Maybe (Region, Mm))
-    single word parameter given = do
-      case given of
-        (first, _) : (at, _) : _ -> mistake (SizeTwice at word first)
-        _ -> pure ()
-      traverse (\(at, e) -> (,) at <$> lengthOf env parameter e) (listToMaybe given)
+    single word parameter given =
+      traverse (\(at, e) -> (,) at <$> lengthOf env parameter e) =<< once word given
+    once :: Text -> [(Region, Expr)] -> Eval (Maybe (Region, Expr))
+    once word given = case given of
+      (first, _) : (at, _) : _ -> mistake (SizeTwice at word first)
+      _ -> pure (listToMaybe given)
     stacked from given = case given of
       [] -> pure []
       (at, d, h) : more -> do
@@ -77,3 +88,11 @@ toolBody env sizes = do
           <$> stacked (maybe from (plus from) tall) more
     mistake :: BodyMistake -> Eval a
     mistake = Evaluation.mistake . InBody
+
+-- | Evaluates the angle of the point of a drill, above 0° and up to 180°.
+angleOf :: Environment -> Expr -> Eval Rad
+angleOf env e = do
+  a <- Expression.number <$> Expression.evaluate env e
+  if a > 0 && a <= pi + Tolerance.equal
+    then pure (Rad a)
+    else Evaluation.mistake (InHole (NoPoint (region e) (Rad a)))

@@ -4,10 +4,11 @@ module Part.CutterBody
     cylindersOf,
     removalRadius,
     pointHeight,
+    pointOf,
   )
 where
 
-import Base.Quantity (Mm (..))
+import Base.Quantity (Mm (..), Rad (..))
 import Part.Part (Cutter (..), CutterKind (..), HolderCylinder (..), ToolBody (..))
 
 -- | A part of a tool: its radius, and the height of its lower end above the tip. It counts as if it
@@ -30,10 +31,19 @@ removalRadius c = case kind c of
   DovetailCutter -> Mm 0
   BladeCutter _ -> Mm 0
   DrillingCutter -> cutterRadius c
+  -- They remove only the grooves of a thread.
+  TappingCutter -> Mm 0
+  ThreadCutter _ -> Mm 0
   TurningCutter -> cutterRadius c
 
--- | The height of the point of a drill with the usual angle of 118°; 0 for other tools.
+-- | The height of the point of a drill; 0 for other tools.
 pointHeight :: Cutter -> Mm
 pointHeight c = case kind c of
-  DrillingCutter -> let Mm r = cutterRadius c in Mm (r / tan (59 * pi / 180))
+  DrillingCutter -> let Mm r = cutterRadius c in Mm (r / tan (pointOf c / 2))
   _ -> Mm 0
+
+-- | The angle in radians of the point of a drill: the usual 118° if the program does not give it.
+pointOf :: Cutter -> Double
+pointOf c = case pointAngle (body c) of
+  Just (Rad a) -> a
+  Nothing -> 118 * pi / 180

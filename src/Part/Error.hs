@@ -32,6 +32,8 @@ import Part.CurveError qualified as CurveError
 import Part.DescentError (DescentMisfit)
 import Part.DescentError qualified as DescentError
 import Part.ErrorText (alternatively)
+import Part.HoleError (HoleMistake)
+import Part.HoleError qualified as HoleError
 import Part.Parameter (Domain, LimitedQuantity, Range (..), WholeNumber)
 import Part.Parameter qualified as Parameter
 import Part.Part (CutterKind (..))
@@ -42,6 +44,8 @@ import Part.RegionError qualified as RegionError
 import Report.Fix (Fix)
 import Report.Fix qualified as Fix
 import Report.Report (Label (..), Report (..), at, quote)
+import Surface.HoleForm qualified as HoleForm
+import Surface.Syntax (HoleWork (..))
 
 -- | A mistake of the program.
 data Error = Error
@@ -57,7 +61,7 @@ data Error = Error
 
 -- | A mistake in a value, a statement or the geometry. The first field of a constructor is the
 -- region that the report points at, and its comment names the other fields in order. The last
--- seven constructors contain facts of other modules.
+-- eight constructors contain facts of other modules.
 data ValueFact
   = DivisionByZero Region
   | OutOfDomain Region Domain
@@ -109,6 +113,7 @@ data ValueFact
   | InConstruction ConstructionFault
   | InContour ContourFault
   | InCurve CurveMistake
+  | InHole HoleMistake
   | InPocket PocketMisfit
   | InRegion RegionMistake
   deriving stock (Eq, Show)
@@ -121,6 +126,7 @@ data CutterStatement
   | RestStatement
   | FaceStatement
   | DrillStatement
+  | HoleStatement HoleWork
   deriving stock (Eq, Show)
 
 -- | The report of a mistake. It also points at the outermost and at the innermost function call in
@@ -280,6 +286,7 @@ factReport unit arguments fact = case fact of
   InConstruction fault -> ConstructionError.toReport unit arguments fault
   InContour fault -> ContourError.toReport unit fault
   InCurve fault -> CurveError.toReport unit fault
+  InHole fault -> HoleError.toReport unit fault
   InPocket fault -> PocketError.toReport unit fault
   InRegion fault -> RegionError.toReport unit fault
   InBody fault -> BodyError.toReport unit fault
@@ -353,6 +360,7 @@ notWholeReport region number range arguments x =
       Parameter.PassCount -> Nothing
       Parameter.PeckCount -> Nothing
       Parameter.OrderedHoleCount -> Nothing
+      Parameter.TurnCount -> Nothing
       Parameter.RowPointCount -> argument 2
       Parameter.RowCount -> argument 4
       Parameter.PointCount -> argument 1
@@ -386,6 +394,7 @@ wrongCutterReport (Region begin _) statement kind =
       FaceStatement -> ("face", "a mill", "change 2 mill(diameter 50 mm)")
       RestStatement -> ("rest", "a mill", "change 2 mill(diameter 5 mm)")
       DrillStatement -> ("drill", "a drill or a mill", "change 2 drill(diameter 5 mm)")
+      HoleStatement work -> (HoleForm.word work, neededFor work, toolFor work)
     tool = case kind of
       MillingCutter -> "a mill"
       ConeCutter -> "a cone"
@@ -393,3 +402,27 @@ wrongCutterReport (Region begin _) statement kind =
       BladeCutter _ -> "a blade that swivels"
       DrillingCutter -> "a drill"
       TurningCutter -> "a turning tool"
+      TappingCutter -> "a tap"
+      ThreadCutter _ -> "a thread mill"
+
+-- | The tool that a work on holes needs.
+neededFor :: HoleWork -> Text
+neededFor work = case work of
+  Spotting -> "a drill or a cone"
+  Countersinking -> "a drill or a cone"
+  Reaming -> "a drill, which also stands for a reamer"
+  Counterboring -> "a mill"
+  Boring -> "a mill"
+  Tapping -> "a tap"
+  Threading -> "a thread mill"
+
+-- | A change to a tool for a work on holes.
+toolFor :: HoleWork -> Text
+toolFor work = case work of
+  Spotting -> "change 2 drill(diameter 6 mm, angle 90 deg)"
+  Countersinking -> "change 2 drill(diameter 12 mm, angle 90 deg)"
+  Reaming -> "change 2 drill(diameter 6 mm)"
+  Counterboring -> "change 2 mill(diameter 5 mm)"
+  Boring -> "change 2 mill(diameter 5 mm)"
+  Tapping -> "change 2 tap(diameter 6 mm)"
+  Threading -> "change 2 threadmill(diameter 4 mm, pitch 1 mm)"

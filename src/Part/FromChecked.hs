@@ -42,6 +42,7 @@ import Part.Evaluation qualified as Evaluation
 import Part.Expression (Environment (..), Turn)
 import Part.Expression qualified as Expression
 import Part.FaceMilling qualified as FaceMilling
+import Part.HoleMachining qualified as HoleMachining
 import Part.Machining (Context (..))
 import Part.Machining qualified as Machining
 import Part.Measure (feedOf, lengthOf, positive, secondsOf, whole)
@@ -149,7 +150,8 @@ initial inUnit =
             chordError = Nothing,
             modalFeed = Nothing,
             clearanceHeight = Nothing,
-            modalSense = Clockwise
+            modalSense = Clockwise,
+            modalRate = NoRate
           },
       initialCutter = Nothing,
       initialNumber = Nothing,
@@ -229,6 +231,8 @@ step state (Located at s) = case s of
     keep (Machining.milling now Turned at e side settings) (eachPerformed Mill)
   Checked.Drill points depth settings ->
     keep (Machining.drilling now at points depth settings) (performed Drill)
+  Checked.Hole work points sizes side settings ->
+    keep (HoleMachining.holeWork now at work points (sizes, side) settings) (performed Drill)
   Checked.Travel stops ->
     keep
       (Machining.stopsOf now (NonEmpty.toList stops))
@@ -240,17 +244,21 @@ step state (Located at s) = case s of
           <*> Machining.stopsOf now [Checked.Stop p Checked.Rapid | Just p <- [place]]
       )
       (toolChange state at)
-  Checked.Spindle Checked.SpindleStop -> command SpindleOff
-  Checked.Spindle Checked.SpindleByHand -> command SpindleByHand
+  Checked.Spindle Checked.SpindleStop -> (command SpindleOff) {context = now {modalRate = NoRate}}
+  Checked.Spindle Checked.SpindleByHand ->
+    (command SpindleByHand) {context = now {modalRate = NoRate}}
   Checked.Spindle (Checked.Spinning sense speed) ->
     keep (traverse (positive env Parameter.SpindleSpeed TurnsPerMinute) speed) $ \speed' ->
-      (command (SpindleOn sense (fromMaybe NoRate speed'))) {context = now {modalSense = sense}}
+      let rate = fromMaybe NoRate speed'
+       in (command (SpindleOn sense rate)) {context = now {modalSense = sense, modalRate = rate}}
   Checked.Spindle (Checked.CuttingAt sense speed limit) ->
     keep
       ( CuttingSpeed <$> positive env Parameter.CuttingSpeed id speed
           <*> positive env Parameter.SpindleSpeed id limit
       )
-      (\rate -> (command (SpindleOn sense rate)) {context = now {modalSense = sense}})
+      ( \rate ->
+          (command (SpindleOn sense rate)) {context = now {modalSense = sense, modalRate = rate}}
+      )
   Checked.Coolant switch -> command (CoolantTo switch)
   Checked.Auxiliary e ->
     keep (whole env Parameter.AuxiliaryCommand (1, 99) e) (command . Auxiliary)
@@ -305,6 +313,7 @@ isOther :: Cutter -> Cutter -> Bool
 isOther a b =
   kind a /= kind b
     || cutterRadius a /= cutterRadius b
+    || pointAngle (body a) /= pointAngle (body b)
     || or [m /= n | Just m <- [tip a], Just n <- [tip b]]
 
 -- | The state after a clearance height.

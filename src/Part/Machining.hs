@@ -7,12 +7,12 @@ module Part.Machining
   ( Context (..),
     milling,
     millingOf,
-    checkCutter,
     pocketing,
     checkPassCount,
     drilling,
     stopsOf,
     spacePoint,
+    checkCutter,
     cutterOf,
     accuracyOf,
   )
@@ -30,7 +30,7 @@ import Control.Monad (when)
 import Data.List qualified as List
 import Data.List.NonEmpty (NonEmpty (..))
 import Data.List.NonEmpty qualified as NonEmpty
-import Data.Maybe (fromMaybe, isJust)
+import Data.Maybe (fromMaybe, isJust, isNothing)
 import Data.Vector qualified as Vector
 import Geometry.Segment qualified as Segment
 import Geometry.Tolerance qualified as Tolerance
@@ -40,14 +40,15 @@ import Part.ContourElement qualified as ContourElement
 import Part.ContourError (ContourFault (OpenBegins))
 import Part.Curve qualified as Curve
 import Part.CurveError (CurveMistake (SteepBevel))
-import Part.CutFeed (CutFeed)
+import Part.CutFeed (CutFeed, SpindleRate)
 import Part.Descent qualified as Descent
 import Part.Error (CutterStatement (..), Error (..), ValueFact (..))
 import Part.Evaluation (Eval)
 import Part.Evaluation qualified as Evaluation
 import Part.Expression (Environment)
 import Part.Expression qualified as Expression
-import Part.Measure (feedOf, lengthOf, notNegative, whole)
+import Part.HoleError (HoleMistake (..), ThreadMistake (..))
+import Part.Measure (feedOf, lengthOf, notNegative, secondsOf, whole)
 import Part.Parameter (Range (UpTo))
 import Part.Parameter qualified as Parameter
 import Part.Part
@@ -67,7 +68,9 @@ data Context = Context
     chordError :: Maybe (Located Accuracy),
     modalFeed :: Maybe (Located CutFeed),
     clearanceHeight :: Maybe Mm,
-    modalSense :: Sense
+    modalSense :: Sense,
+    -- | how fast the spindle turns
+    modalRate :: SpindleRate
   }
 
 -- Milling and turning
@@ -373,6 +376,8 @@ drilling context at points depth settings = do
   found <- holesOf env points v depth
   peckDepth <- traverse (lengthOf env Parameter.PeckDepth) (Checked.peck settings)
   plunge <- traverse (feedOf env) (Checked.plunge settings)
+  chipRise <- chipRiseOf env settings
+  bottomPause <- traverse (secondsOf env) (Checked.pause settings)
   let pecksOf h = maybe 1 (pecksIn (holeBottom h)) peckDepth
       most = maximum (0 : map pecksOf found)
   when
@@ -398,9 +403,13 @@ drilling context at points depth settings = do
           { holes = some,
             visits = Checked.visits settings,
             drillRadius = cutterRadius tool,
+            mouthRadius = cutterRadius tool,
             drillSize = cutterSize tool,
             travelHeight,
             peckDepth,
+            chipRise,
+            bottomPause,
+            form = Plunged,
             drillFeed
           }
   where
@@ -426,6 +435,14 @@ holesOf env points v depth = case v of
     atRow t k = depth {region = NumberTable.regionOf (Curve.rows t) k}
     pointIn = Expression.point . Expression.self
     hole p d = Hole {holeCentre = Located (region points) p, holeBottom = times (-1) d}
+
+-- | Evaluates the rise of a drill after a peck. Fails if there is a chip break without pecks.
+chipRiseOf :: Environment -> Checked.Settings -> Eval (Maybe Mm)
+chipRiseOf env settings = case Checked.chipBreak settings of
+  Just (Located setting _)
+    | isNothing (Checked.peck settings) ->
+      Evaluation.mistake (InHole (BreakWithoutPeck setting))
+  given -> traverse (lengthOf env Parameter.ChipRise . value) given
 
 -- Moves
 
@@ -469,6 +486,20 @@ checkCutter context at statement = case cutter context of
       RestStatement -> cutterKind == MillingCutter
       FaceStatement -> cutterKind == MillingCutter
       DrillStatement -> cutterKind `elem` [DrillingCutter, MillingCutter]
+      HoleStatement work -> fitsHole work cutterKind
+
+-- | True for the kinds of tools that make holes in this way.
+fitsHole :: Checked.HoleWork -> CutterKind -> Bool
+fitsHole work cutterKind = case work of
+  Checked.Spotting -> cutterKind `elem` [DrillingCutter, ConeCutter]
+  Checked.Countersinking -> cutterKind `elem` [DrillingCutter, ConeCutter]
+  Checked.Reaming -> cutterKind == DrillingCutter
+  Checked.Counterboring -> cutterKind == MillingCutter
+  Checked.Boring -> cutterKind == MillingCutter
+  Checked.Tapping -> cutterKind == TappingCutter
+  Checked.Threading -> case cutterKind of
+    ThreadCutter _ -> True
+    _ -> False
 
 -- | True for the kinds of cutters that mill contours with their flank.
 isMill :: CutterKind -> Bool
@@ -479,6 +510,8 @@ isMill cutterKind = case cutterKind of
   BladeCutter _ -> True
   DrillingCutter -> False
   TurningCutter -> False
+  TappingCutter -> False
+  ThreadCutter _ -> False
 
 -- | Evaluates a tool. The result holds the radius at which the tool touches the part.
 cutterOf :: Environment -> Checked.Cutter -> Eval Cutter
@@ -487,6 +520,14 @@ cutterOf env (Located _ c) = case c of
     withBody sizes . sized MillingCutter e . times 0.5 =<< lengthOf env Parameter.CutterDiameter e
   Checked.DrillCutter e sizes ->
     withBody sizes . sized DrillingCutter e . times 0.5 =<< lengthOf env Parameter.DrillDiameter e
+  Checked.TapCutter e sizes ->
+    withBody sizes . sized TappingCutter e . times 0.5 =<< lengthOf env Parameter.TapDiameter e
+  Checked.ThreadMillCutter e pitch sizes -> do
+    r <- times 0.5 <$> lengthOf env Parameter.CutterDiameter e
+    own <- lengthOf env Parameter.ThreadPitch pitch
+    when (own > r) . Evaluation.mistake . InHole . InThread $
+      PitchTooLong (region pitch) own (times 2 r)
+    withBody sizes (sized (ThreadCutter own) e r)
   Checked.ConeCutter e lean h -> cone env e lean h
   Checked.BladeCutter e g -> do
     d <- lengthOf env Parameter.BladeDiameter e
@@ -515,7 +556,8 @@ cone env e lean h = do
   let a = d / 2 + flank * tan mu
   when (a <= 0) (Evaluation.mistake (NotPositive (region lean) Parameter.RadiusAtHeight a))
   let kind' = if mu < 0 then DovetailCutter else ConeCutter
-  pure (Cutter kind' (Mm a) Nothing Nothing (Mm (d / 2)) plainBody)
+      pointed = if mu > 0 then plainBody {pointAngle = Just (Rad (2 * mu))} else plainBody
+  pure (Cutter kind' (Mm a) Nothing Nothing (Mm (d / 2)) pointed)
 
 -- | The allowed chord error that a @tolerance@ statement sets.
 accuracyOf :: Environment -> Checked.Accuracy -> Eval (Located Accuracy)

@@ -37,6 +37,7 @@ data LimitedQuantity
     CurveTolerance
   | CutterDiameter
   | DrillDiameter
+  | TapDiameter
   | BladeDiameter
   | WheelDiameter
   | FlankHeight
@@ -50,6 +51,11 @@ data LimitedQuantity
     HoleDepth
   | PassDepth
   | PeckDepth
+  | -- | the rise of a drill after a peck
+    ChipRise
+  | HoleDiameter
+  | -- | the pitch of a thread, or the depth of one turn of a helix
+    ThreadPitch
   | Allowance
   | Chamfer
   | FilletRadius
@@ -90,6 +96,7 @@ name parameter = case parameter of
   CurveTolerance -> "the tolerance of a curve"
   CutterDiameter -> "the cutter's diameter"
   DrillDiameter -> "the drill's diameter"
+  TapDiameter -> "the tap's diameter"
   BladeDiameter -> "the blade's diameter"
   WheelDiameter -> "the diameter of the wheel"
   FlankHeight -> "the height of the flank"
@@ -101,6 +108,9 @@ name parameter = case parameter of
   HoleDepth -> "the depth of a hole"
   PassDepth -> "the depth of a pass"
   PeckDepth -> "the depth of a peck"
+  ChipRise -> "the rise of a chip break"
+  HoleDiameter -> "the diameter of a hole"
+  ThreadPitch -> "the pitch"
   Allowance -> "the allowance"
   Chamfer -> "the chamfer"
   FilletRadius -> "the radius of a fillet"
@@ -142,6 +152,8 @@ data WholeNumber
   | PeckCount
   | -- | the number of holes that a statement orders
     OrderedHoleCount
+  | -- | the number of turns of a helix
+    TurnCount
   | -- | the number of points in one row of a pattern
     RowPointCount
   | -- | the number of rows of a pattern
@@ -172,6 +184,7 @@ wholeName number = case number of
   PassCount -> "the number of passes"
   PeckCount -> "the number of pecks"
   OrderedHoleCount -> "the number of holes in a shortest order"
+  TurnCount -> "the number of turns"
   RowPointCount -> "the number of points in a row"
   RowCount -> "the number of rows"
   PointCount -> "the number of points"

@@ -33,6 +33,11 @@ module Part.Part
     deviationLimits,
     Drilling (..),
     Hole (..),
+    HoleForm (..),
+    TapStroke (..),
+    Circling (..),
+    ThreadHelix (..),
+    runsOf,
     Command (..),
     Cutter (..),
     CutterKind (..),
@@ -73,6 +78,7 @@ import Data.Text (Text)
 import Data.Traversable (mapAccumR)
 import Data.Tuple (swap)
 import Geometry.Carrier (Circle)
+import Geometry.Carrier qualified as Carrier
 import Geometry.ElementCarrier (ElementCarrier)
 import Geometry.Polyarc (Ends (..))
 import Geometry.Polyarc qualified as Polyarc
@@ -416,13 +422,16 @@ deviationLimits accuracy = case accuracy of
   OnPath d -> (d, d)
   Band a b -> (a, b)
 
--- | The drilling of holes.
+-- | The drilling of holes, or another work on holes.
 data Drilling = Drilling
   { -- | the holes in the order of the program
     holes :: NonEmpty Hole,
     -- | the order in which they are drilled
     visits :: VisitOrder,
+    -- | the radius of the tool
     drillRadius :: Mm,
+    -- | the radius of the holes at the top of the part
+    mouthRadius :: Mm,
     -- | the region of the diameter of the drill
     drillSize :: Maybe Region,
     -- | the height at which the drill moves from hole to hole
@@ -430,6 +439,12 @@ data Drilling = Drilling
     -- | the largest depth to drill before the drill is retracted; if it is absent, each hole is
     -- drilled in one move
     peckDepth :: Maybe Mm,
+    -- | the rise after each peck; if it is absent, the drill leaves the hole
+    chipRise :: Maybe Mm,
+    -- | the pause of the axes at the bottom of each hole
+    bottomPause :: Maybe Seconds,
+    form :: HoleForm,
+    -- | the feed straight down
     drillFeed :: Located CutFeed
   }
   deriving stock (Eq, Show)
@@ -437,6 +452,67 @@ data Drilling = Drilling
 -- | A hole: its centre, and the height of its bottom, which is negative.
 data Hole = Hole {holeCentre :: Located Point, holeBottom :: Mm}
   deriving stock (Eq, Show)
+
+-- | The moves by which a hole is made.
+data HoleForm
+  = -- | straight down at the feed, and up in rapid
+    Plunged
+  | -- | straight down and up at the feed
+    Reamed
+  | Tapped TapStroke
+  | Bored Circling
+  | Threaded ThreadHelix
+  deriving stock (Eq, Show)
+
+-- | The tapping of a thread. The feed of the drilling is the pitch for each turn of the spindle.
+data TapStroke = TapStroke
+  { -- | the sense of the spindle on the way down; on the way up it turns in the other one
+    tapSense :: Sense,
+    tapPitch :: Mm,
+    -- | the region of the setting that allows a floating tap holder
+    floats :: Maybe Region
+  }
+  deriving stock (Eq, Show)
+
+-- | The milling of a cylinder in circles: a helix down to the bottom, and full circles there.
+data Circling = Circling
+  { -- | the radius of the cylinder
+    boreRadius :: Mm,
+    -- | the largest depth of one turn of the helix
+    turnDepth :: Mm,
+    -- | true if the whole floor of the cylinder is cleared; otherwise the cutter keeps to its wall
+    clearsFloor :: Bool,
+    -- | the sense of the circles
+    circleSense :: Carrier.Sense,
+    circleFeed :: Located CutFeed,
+    circleTolerance :: Accuracy
+  }
+  deriving stock (Eq, Show)
+
+-- | The milling of a thread in a helix.
+data ThreadHelix = ThreadHelix
+  { -- | the radius that the teeth of the cutter reach: the largest one of an inside thread, and the
+    -- smallest one of an outside thread
+    toothRadius :: Mm,
+    pitch :: Mm,
+    isInside :: Bool,
+    -- | the sense of the helix, seen from above
+    helixSense :: Carrier.Sense,
+    -- | true if the helix leads upwards
+    rises :: Bool,
+    helixFeed :: Located CutFeed,
+    helixTolerance :: Accuracy
+  }
+  deriving stock (Eq, Show)
+
+-- | The feed and the tolerance of the circles of a hole, if it has some.
+runsOf :: Drilling -> Maybe (Located CutFeed, Accuracy)
+runsOf d = case form d of
+  Bored c -> Just (circleFeed c, circleTolerance c)
+  Threaded h -> Just (helixFeed h, helixTolerance h)
+  Plunged -> Nothing
+  Reamed -> Nothing
+  Tapped _ -> Nothing
 
 -- | A command to the machine: an auxiliary function.
 data Command
@@ -481,13 +557,15 @@ data ToolBody = ToolBody
     -- | the length up to the holder
     stickOut :: Maybe Mm,
     -- | the cylinders of the holder, from below. The highest one has no end
-    holder :: [HolderCylinder]
+    holder :: [HolderCylinder],
+    -- | the angle of the point of a drill or of a cone; absent for other tools
+    pointAngle :: Maybe Rad
   }
   deriving stock (Eq, Show)
 
 -- | A body of which the program gives nothing.
 plainBody :: ToolBody
-plainBody = ToolBody Nothing Nothing []
+plainBody = ToolBody Nothing Nothing [] Nothing
 
 -- | A cylinder of a holder, and the height of its lower end above the tip of the tool.
 data HolderCylinder = HolderCylinder {holderRadius :: Mm, aboveTip :: Mm}
@@ -510,6 +588,9 @@ data CutterKind
     -- the blade
     BladeCutter Mm
   | DrillingCutter
+  | TappingCutter
+  | -- | a thread mill with teeth of this pitch
+    ThreadCutter Mm
   | TurningCutter
   deriving stock (Eq, Show)
 

@@ -170,6 +170,8 @@ kindName kind = case kind of
   Part.DovetailCutter -> "dovetail"
   Part.BladeCutter _ -> "blade"
   Part.DrillingCutter -> "drill"
+  Part.TappingCutter -> "tap"
+  Part.ThreadCutter _ -> "thread mill"
   Part.TurningCutter -> "turning"
 
 -- Points and contours -----------------------------------------------------------------------------
@@ -202,7 +204,7 @@ sideName side = case side of
 holeNumbers :: Part.Operation -> [Double]
 holeNumbers operation = case operation of
   Part.Drill (Located _ drilling) ->
-    let Mm radius = Part.drillRadius drilling
+    let Mm radius = Part.mouthRadius drilling
      in concat
           [ [Vec.x centre, Vec.y centre, radius, bottom]
             | Part.Hole (Located _ centre) (Mm bottom) <- NonEmpty.toList (Part.holes drilling)

@@ -25,6 +25,7 @@ import Data.List.NonEmpty qualified as NonEmpty
 import Data.Maybe (listToMaybe)
 import Data.Text (Text)
 import Data.Text qualified as Text
+import Surface.HoleForm qualified as HoleForm
 import Surface.Keyword qualified as Keyword
 import Surface.Lexer qualified as Lexer
 import Surface.Token (Numeral (..), Token (..), Token_ (..))
@@ -225,7 +226,7 @@ braced parent = case reverse (heads parent) of
     Word "contour" -> level Items []
     Word "table" -> level TableLines []
     Word k
-      | k `elem` ["mill", "turn", "pocket", "rest", "face", "drill"] -> level (SettingsOf k) []
+      | k `elem` ["mill", "turn", "pocket", "rest", "face", "drill"] <> HoleForm.words' -> level (SettingsOf k) []
       | k == "for", n : _ <- rest, Word w <- shape n -> level inner [BoundName w (place n)]
     _ -> level inner []
   [] -> level inner []
@@ -243,7 +244,7 @@ parenthesis token parent = case heads parent of
     _ -> Parenthesis
   _ -> Parenthesis
   where
-    cutters = ["mill", "drill", "turn", "cone", "blade"]
+    cutters = ["mill", "drill", "tap", "threadmill", "turn", "cone", "blade"]
 
 -- | The levels after a closing bracket. Levels inside the one that it closes are dropped. A bracket
 -- that closes nothing is dropped.

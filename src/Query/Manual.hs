@@ -37,7 +37,7 @@ under :: Text -> [(Text, Text)] -> [(Text, ManualEntry)]
 under section entries = [(name, ManualEntry {sentence, section}) | (name, sentence) <- entries]
 
 words' :: [(Text, ManualEntry)]
-words' = concat [statements, definitions, contours, machining, settings, units]
+words' = concat [statements, definitions, contours, machining, holes, settings, units]
 
 statements :: [(Text, ManualEntry)]
 statements =
@@ -224,6 +224,25 @@ clearing =
         ("angle", "Gives the direction of the passes over a surface.")
       ]
 
+-- | The works on holes.
+holes :: [(Text, ManualEntry)]
+holes =
+  under
+    "language.md#works-on-holes"
+    [ ("spot", "Marks the centres of holes with the point of a tool."),
+      ("ream", "Reams holes: in and out at the feed."),
+      ("countersink", "Makes cones at the mouths of holes."),
+      ("counterbore", "Mills flat-bottomed cylinders."),
+      ("bore", "Mills holes along their walls in a helix."),
+      ("tap", "Taps threads; in a tool, it is a tap."),
+      ("thread", "Mills threads in a helix."),
+      ("threadmill", "Is a thread mill."),
+      ("angle", "Gives the angle of a countersink, or of the point of a drill."),
+      ("pitch", "Gives the pitch of a thread or of a helix."),
+      ("hand", "Says if a thread is a right-hand or a left-hand one."),
+      ("floating", "Says that the tap is in a floating holder.")
+    ]
+
 settings :: [(Text, ManualEntry)]
 settings =
   under
@@ -287,7 +306,10 @@ otherSettings =
     <> under
       "language.md#drilling"
       [ ("peck", "Gives the depth that is drilled before the drill is lifted."),
-        ("shortest", "Has the holes drilled in the order of a short way.")
+        ("shortest", "Has the holes drilled in the order of a short way."),
+        ("chip", "Gives the height by which the drill rises after each peck."),
+        ("chip break", "Gives the height by which the drill rises after each peck."),
+        ("break", "Belongs to chip break, the rise after each peck.")
       ]
 
 units :: [(Text, ManualEntry)]

@@ -52,5 +52,6 @@ regionsAround at s
       RestOf _ _ ss -> [region x | x <- ss, contains (region x)]
       Face _ _ ss -> [region x | x <- ss, contains (region x)]
       Turn _ _ ss -> [region x | x <- ss, contains (region x)]
+      Hole _ _ _ _ ss -> [region x | x <- ss, contains (region x)]
       Drill _ _ ss -> [region x | x <- ss, contains (region x)]
       _ -> []

@@ -16,6 +16,8 @@ where
 import Checked.Type (Type (..))
 import Checked.Type qualified as Type
 import Data.Text (Text)
+import Surface.HoleForm qualified as HoleForm
+import Surface.Syntax (HoleWork (..))
 
 -- | A kind of text that may come at the cursor.
 data Slot
@@ -101,6 +103,22 @@ clearingEntries keyword = case keyword of
   where
     own follows after = [(keyword, (follows, after))]
 
+-- | The entries of a work on holes: its points, and each size after the one before it.
+holeEntries :: HoleWork -> [(Text, ([Slot], [Slot]))]
+holeEntries work =
+  [ (HoleForm.word work, (words' ["at"], [])),
+    ("at", ([AtValue [ListOf Type.aPoint, Type.aPoint] False], words' firsts))
+  ]
+    <> [ (word, (value (if word == "angle" then Type.angle else Type.len), words' after))
+         | (word, after) <- followers
+       ]
+    <> [(side, ([], [])) | work == Threading, side <- ["inside", "outside"]]
+  where
+    forms = map (map HoleForm.sizeWord) (HoleForm.sizeForms work)
+    firsts = concatMap (take 1) forms
+    followers = concatMap (\ws -> zip ws (map pure (drop 1 ws) <> [final])) forms
+    final = if work == Threading then ["inside", "outside"] else []
+
 -- | The entries of moves and commands.
 commandEntries :: Text -> [(Text, ([Slot], [Slot]))]
 commandEntries keyword = case keyword of
@@ -117,12 +135,12 @@ commandEntries keyword = case keyword of
   "aux" -> own (value Type.number) []
   "optional" -> own (words' ["stop"]) []
   "dwell" -> own (value Type.number) (words' ["s"])
-  _ -> []
+  _ -> maybe [] holeEntries (HoleForm.named keyword)
   where
     own follows after = [(keyword, (follows, after))]
 
 cutterKinds :: [Text]
-cutterKinds = ["mill", "drill", "turn", "cone", "blade"]
+cutterKinds = ["mill", "drill", "tap", "threadmill", "turn", "cone", "blade"]
 
 pieceEntries :: [(Text, ([Slot], [Slot]))]
 pieceEntries =
@@ -176,6 +194,10 @@ setting w = case w of
   "width" -> Just (value Type.len, words' ["height"])
   "height" -> Just (value Type.len, words' ["angle"])
   "peck" -> Just (value Type.len, [])
+  "chip" -> Just (words' ["break"], [])
+  "break" -> Just (value Type.len, [])
+  "dwell" -> Just (value Type.number, words' ["s"])
+  "hand" -> Just (words' ["left", "right"], [])
   "islands" -> Just ([AtValue [Contour, ListOf Contour] False], [])
   "rest" -> Just (words' ["allowed"], [])
   "angle" -> Just (value Type.angle, [])
@@ -225,7 +247,9 @@ afterElement =
 cutterWords :: Text -> [Text]
 cutterWords kind = case kind of
   "mill" -> ["diameter", "flutes", "stickout", "holder"]
-  "drill" -> ["diameter", "flutes", "stickout", "holder"]
+  "drill" -> ["diameter", "angle", "flutes", "stickout", "holder"]
+  "tap" -> ["diameter", "flutes", "stickout", "holder"]
+  "threadmill" -> ["diameter", "pitch", "flutes", "stickout", "holder"]
   "turn" -> ["nose", "tip"]
   "cone" -> ["diameter", "bevel", "height"]
   "blade" -> ["diameter", "gear"]

@@ -67,6 +67,21 @@ cuttingStatements =
     ("drill", "drill at ${1:points} depth ${2:5 mm}"),
     ("turn", "turn ${1:contour} ${2:outside} {\n  approach (${3:0}, ${4:0})\n  $0\n}")
   ]
+    <> holes
+
+-- | The works on holes, each by its keyword, with its text.
+holes :: [(Text, Text)]
+holes =
+  [ ("spot", "spot at ${1:points} depth ${2:1 mm}"),
+    ("ream", "ream at ${1:points} depth ${2:10 mm}"),
+    ("countersink", "countersink at ${1:points} angle ${2:90 deg} diameter ${3:10 mm}"),
+    ("counterbore", "counterbore at ${1:points} diameter ${2:11 mm} depth ${3:6 mm}"),
+    ("bore", "bore at ${1:points} diameter ${2:20 mm} depth ${3:10 mm} pitch ${4:1 mm}"),
+    ("tap", "tap at ${1:points} pitch ${2:1 mm} depth ${3:10 mm}"),
+    ( "thread",
+      "thread at ${1:points} diameter ${2:6 mm} pitch ${3:1 mm} depth ${4:10 mm} ${5:inside}"
+    )
+  ]
 
 -- | The text of a setting that begins with these one or two words.
 setting :: Text -> Text
@@ -86,6 +101,10 @@ setting words' = case words' of
   "tabs" -> "tabs ${1:4} width ${2:6 mm} height ${3:2 mm}"
   "tab at" -> "tab at (${1:0}, ${2:0}) width ${3:6 mm} height ${4:2 mm}"
   "peck" -> "peck ${1:3 mm}"
+  "chip break" -> "chip break ${1:0.3 mm}"
+  "dwell" -> "dwell ${1:0.5} s"
+  "pitch" -> "pitch ${1:0.5 mm}"
+  "hand" -> "hand ${1:left}"
   "islands" -> "islands ${1:contour}"
   "rest" -> "rest allowed"
   "angle" -> "angle ${1:45 deg}"
@@ -96,6 +115,8 @@ cutters :: [(Text, Text)]
 cutters =
   [ ("mill", "mill(diameter ${1:6 mm})"),
     ("drill", "drill(diameter ${1:5 mm})"),
+    ("tap", "tap(diameter ${1:6 mm})"),
+    ("threadmill", "threadmill(diameter ${1:6 mm}, pitch ${2:1 mm})"),
     ("turn", "turn(nose ${1:0.4 mm})"),
     ("cone", "cone(diameter ${1:6 mm}, bevel ${2:5 deg}, height ${3:3 mm})"),
     ("blade", "blade(diameter ${1:40 mm}, gear ${2:20 mm})")

@@ -15,7 +15,7 @@ import Base.Region (Located (..), Region (..), Source)
 import Base.Region qualified as Region
 import Data.List.NonEmpty (NonEmpty)
 import Data.List.NonEmpty qualified as NonEmpty
-import Data.Maybe (mapMaybe)
+import Data.Maybe (listToMaybe, mapMaybe)
 import Data.Text (Text)
 import Data.Text qualified as Text
 import Query.RegionMap (RegionMap)
@@ -109,6 +109,8 @@ symbol source (Located whole s) = case s of
   Face contour stepover _ -> machining (region stepover) (region contour)
   Turn contour side _ -> machining (region side) (region contour)
   Drill holes depth _ -> machining (region depth) (region holes)
+  Hole _ points sizes _ _ ->
+    machining (maybe (region points) (region . snd) (listToMaybe (reverse sizes))) (region points)
   Travel _ _ -> machining whole whole
   Change number cutter _ -> machining (region cutter) (region number)
   Repeat (Located selection _) list _ -> machining (region list) selection

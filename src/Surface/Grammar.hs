@@ -30,6 +30,8 @@ import Surface.Combinator
 import Surface.Combinator.Fast (FastParser)
 import Surface.Combinator.Fast qualified as FastCombinator
 import Surface.Error (Enclosure (..))
+import Surface.HoleForm qualified as HoleForm
+import Surface.HoleGrammar (cutter, hole)
 import Surface.Keyword qualified as Keyword
 import Surface.Syntax
 import Surface.Token (Token (..), Token_ (..))
@@ -107,7 +109,7 @@ statementForms =
     ("move", Travel FeedMotion <$> stops),
     ( "change",
       Change <$> onSameLine "the number of a tool" expr
-        <*> onSameLine "a cutter" cutter
+        <*> onSameLine "a cutter" (cutter expr)
         <*> Parsec.optional (onThisLine (keyword "at" *> expr))
     ),
     ("spindle", Spindle <$> spin),
@@ -127,6 +129,7 @@ statementForms =
     ),
     ("with", With <$> expr <*> statementBlock (BlockOf "with") statement)
   ]
+    <> [(HoleForm.word work, hole expr settings work) | work <- [minBound ..]]
   where
     stepover = keyword "step" *> expr
     ownName = Parsec.optional (onThisLine (keyword "as" *> name))
@@ -149,44 +152,13 @@ firstTool = onSameLine "a cutter" $ do
   case map shape (take 2 next) of
     Number _ _ : _ -> numbered number
     [Word word, Word _] | not (Keyword.isReserved word) -> numbered variableOrCall
-    _ -> Tool Nothing <$> cutter
+    _ -> Tool Nothing <$> cutter expr
   where
-    numbered first = Tool . Just <$> first <*> onSameLine "a cutter" cutter
+    numbered first = Tool . Just <$> first <*> onSameLine "a cutter" (cutter expr)
 
 -- | The heights of the bottom and of the top of a body after its region: @from -20 to 0@.
 heights :: Parser (Maybe (Expr, Expr))
 heights = Parsec.optional (onThisLine ((,) <$> (keyword "from" *> expr) <*> (keyword "to" *> expr)))
-
--- | A cutter: @mill(diameter 20 mm)@, @drill(…)@, @turn(…)@, @cone(…)@, @blade(…)@.
-cutter :: Parser Cutter
-cutter =
-  located $
-    one "mill" "diameter" MillCutter
-      <|> one "drill" "diameter" DrillCutter
-      <|> (keyword "turn" *> parens (TurningCutter <$> measured "nose" <*> Parsec.optional tip))
-      <|> ( keyword "cone"
-              *> parens
-                ( ConeCutter
-                    <$> measured "diameter"
-                      <*> further "bevel" coneForm
-                      <*> further "height" coneForm
-                )
-          )
-      <|> ( keyword "blade"
-              *> parens (BladeCutter <$> measured "diameter" <*> further "gear" bladeForm)
-          )
-  where
-    one kind measure make =
-      keyword kind *> parens (make <$> measured measure <*> zeroOrMore (symbol "," *> located size))
-    size =
-      (Flutes <$> measured "flutes")
-        <|> (StickOut <$> measured "stickout")
-        <|> (HolderCylinder <$> measured "holder" <*> Parsec.optional (measured "height"))
-    measured measure = keyword measure *> expr
-    tip = symbol "," *> measured "tip"
-    further measure form = (symbol "," <?> form) *> measured measure
-    coneForm = "the rest of cone(diameter 20 mm, bevel 5 deg, height 30 mm)"
-    bladeForm = "the rest of blade(diameter 20 mm, gear 70 mm)"
 
 -- | A tolerance: one value for both sides of the curve, or one inside and one outside.
 accuracy :: Parser Accuracy
@@ -397,6 +369,11 @@ settingForms =
     ("peck", Peck <$> onSameLine "a depth" expr),
     ("shortest", pure ShortestWay),
     ("angle", Angle <$> onSameLine "an angle" expr),
+    ("chip", keyword "break" *> (ChipBreak <$> onSameLine "a length" expr)),
+    ("dwell", Pause <$> onSameLine "a number of seconds" expr <* onSameLine "‘s’" (keyword "s")),
+    ("pitch", TurnPitch <$> onSameLine "a length" expr),
+    ("hand", Hand <$> ((LeftSide <$ keyword "left") <|> (RightSide <$ keyword "right"))),
+    ("floating", pure Floating),
     ("islands", Islands <$> (expr `sepBy1` ",")),
     ("rest", RestAllowed <$ keyword "allowed")
   ]

@@ -17,6 +17,7 @@ where
 import Data.Set (Set)
 import Data.Set qualified as Set
 import Data.Text (Text)
+import Surface.HoleForm qualified as HoleForm
 import Surface.Syntax (Selector (..))
 import Surface.Token (unitName)
 
@@ -33,6 +34,7 @@ softStatements :: [Text]
 softStatements =
   ["pocket", "rest", "face", "units", "work", "program", "safe", "stock", "avoid"]
     <> ["stop", "optional", "dwell"]
+    <> HoleForm.words'
 
 -- | The keywords that begin a repetition or a choice, either of statements or of items of a
 -- contour.
@@ -47,6 +49,7 @@ beginsItem word = word `elem` (["for", "if", "cw", "ccw"] <> settings)
       ["approach", "retract", "depth", "lead", "allowance", "corners", "climb", "conventional"]
         <> ["compensation", "start", "plunge", "peck", "shortest", "islands", "rest"]
         <> ["angle", "ramp", "helix", "spiral", "tabs", "tab"]
+        <> ["chip", "dwell", "pitch", "hand", "floating"]
 
 -- | The settings that are allowed in the block of a statement, each by the one or two words with
 -- which it begins. @statement@ is the keyword of the statement.
@@ -62,7 +65,14 @@ settingsOf statement = case statement of
   "face" ->
     ["approach", "retract", "climb", "conventional", "angle", "depth", "plunge"]
   "turn" -> linkingMoves <> passes
-  _ -> ["peck", "plunge", "shortest"]
+  "drill" -> ["peck", "chip break", "dwell", "plunge", "shortest"]
+  "spot" -> ["dwell", "plunge"]
+  "countersink" -> ["dwell", "plunge"]
+  "counterbore" -> ["pitch", "dwell", "plunge", "climb", "conventional"]
+  "bore" -> ["plunge", "climb", "conventional"]
+  "thread" -> ["hand", "plunge", "climb", "conventional"]
+  "tap" -> ["hand", "floating"]
+  _ -> ["plunge"]
   where
     linkingMoves = ["approach", "retract", "lead in", "lead out"]
     passes = ["allowance", "corners"]

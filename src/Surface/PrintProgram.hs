@@ -23,6 +23,7 @@ import Data.Text (Text)
 import Data.Text qualified as Text
 import Surface.Alignment (AlignedLine (..), AlignmentColumn (..), LineCells (..))
 import Surface.Alignment qualified as Alignment
+import Surface.HoleForm qualified as HoleForm
 import Surface.PrettyPrinter (Doc (..), Member)
 import Surface.PrettyPrinter qualified as PrettyPrinter
 import Surface.PrintExpression (CommentPositions, spaced)
@@ -142,6 +143,16 @@ statement comments indent (Located _ s) = case s of
   Turn e side settings -> machining "turn" e side settings
   Drill at depth settings ->
     let before = spaced [Text "drill at", value at, Text "depth", value depth]
+     in if null settings
+          then plain before
+          else braces indent before (concatMap (setting comments (indent + 2)) settings)
+  Hole work at sizes side settings ->
+    let size (what, e) = [Text (HoleForm.sizeWord what), value e]
+        before =
+          spaced $
+            [Text (HoleForm.word work <> " at"), value at]
+              <> concatMap size sizes
+              <> [Text (sideName to) | Just (Located _ to) <- [side]]
      in if null settings
           then plain before
           else braces indent before (concatMap (setting comments (indent + 2)) settings)
@@ -307,6 +318,13 @@ cutter :: CommentPositions -> Cutter -> Doc
 cutter comments (Located _ c) = case c of
   MillCutter e sizes -> made "mill(diameter " e sizes
   DrillCutter e sizes -> made "drill(diameter " e sizes
+  TapCutter e sizes -> made "tap(diameter " e sizes
+  ThreadMillCutter e pitch sizes ->
+    Beside
+      ( [Text "threadmill(diameter ", value e, Text ", pitch ", value pitch]
+          <> concatMap (size . Region.value) sizes
+          <> [Text ")"]
+      )
   TurningCutter e tip ->
     let direction = concat [[Text ", tip ", value n] | Just n <- [tip]]
      in Beside ([Text "turn(nose ", value e] <> direction <> [Text ")"])
@@ -327,6 +345,7 @@ cutter comments (Located _ c) = case c of
     size s = case s of
       Flutes e -> [Text ", flutes ", value e]
       StickOut e -> [Text ", stickout ", value e]
+      PointAngle e -> [Text ", angle ", value e]
       HolderCylinder d h ->
         [Text ", holder ", value d] <> concat [[Text " height ", value e] | Just e <- [h]]
     value = PrintExpression.value comments
@@ -447,6 +466,11 @@ setting comments indent (Located _ s) = case s of
   Peck e -> worded "peck" (value e)
   ShortestWay -> whole indent (Text "shortest")
   Angle e -> worded "angle" (value e)
+  ChipBreak e -> worded "chip break" (value e)
+  Pause e -> worded "dwell" (spaced [value e, Text "s"])
+  TurnPitch e -> worded "pitch" (value e)
+  Hand side -> worded "hand" (Text (sideName side))
+  Floating -> whole indent (Text "floating")
   Islands es -> worded "islands" (Series (pieces es))
   RestAllowed -> worded "rest" (Text "allowed")
   BrokenSetting -> []

@@ -14,6 +14,7 @@ import Data.Maybe (listToMaybe, mapMaybe)
 import Data.Text (Text)
 import Data.Text qualified as Text
 import Report.Report (quote)
+import Surface.HoleForm qualified as HoleForm
 import Surface.Keyword qualified as Keyword
 import Surface.Token (Token (..), Token_ (..), describe)
 import Surface.TokenContext (TokenContext (..))
@@ -62,6 +63,8 @@ cutterForms =
       "mill(diameter 6 mm), or mill(diameter 6 mm, flutes 18 mm, stickout 30 mm, holder 40 mm)"
     ),
     ("drill", "drill(diameter 5 mm), or drill(diameter 5 mm, flutes 40 mm)"),
+    ("tap", "tap(diameter 6 mm)"),
+    ("threadmill", "threadmill(diameter 6 mm, pitch 1 mm)"),
     ("cone", "cone(diameter 20 mm, bevel 5 deg, height 30 mm)"),
     ("blade", "blade(diameter 20 mm, gear 70 mm)"),
     ("turn", "turn(nose 0.8 mm), or turn(nose 0.8 mm, tip 2)")
@@ -77,7 +80,7 @@ lineTokens around
     (same, []) -> same
 
 settingBlocks :: [Text]
-settingBlocks = ["mill", "pocket", "rest", "face", "turn", "drill"]
+settingBlocks = ["mill", "pocket", "rest", "face", "turn", "drill"] <> HoleForm.words'
 
 -- | The keyword of the statement around a token; empty if there is none.
 blockWord :: TokenContext -> Text
@@ -139,6 +142,13 @@ statementForms =
     ("face", "face blank step 20 { depth 0 step 1 }"),
     ("turn", "turn profile outside { allowance 1, 0 }"),
     ("drill", "drill at (10, 20) depth 15 { peck 5 }"),
+    ("spot", "spot at (10, 20) depth 1, or spot at (10, 20) diameter 3"),
+    ("ream", "ream at (10, 20) depth 15"),
+    ("countersink", "countersink at (10, 20) angle 90 diameter 8"),
+    ("counterbore", "counterbore at (10, 20) diameter 11 depth 6"),
+    ("bore", "bore at (10, 20) diameter 20 depth 10 pitch 1"),
+    ("tap", "tap at (10, 20) pitch 1 depth 12"),
+    ("thread", "thread at (10, 20) diameter 6 pitch 1 depth 12 inside"),
     ("rapid", "rapid (0, 0)"),
     ("move", "move (0, 0) feed 30"),
     ("change", "change 2 drill(diameter 5 mm), or change 2 drill(diameter 5 mm) at (0, 0)"),
@@ -174,6 +184,11 @@ settingForms =
     ("tab", "tab at (0, 20) width 6 height 2"),
     ("peck", "peck 4"),
     ("shortest", "shortest"),
+    ("chip", "chip break 0.3"),
+    ("dwell", "dwell 0.5 s"),
+    ("pitch", "pitch 0.5"),
+    ("hand", "hand left, or hand right"),
+    ("floating", "floating"),
     ("islands", "islands boss, rib"),
     ("rest", "rest allowed"),
     ("angle", "angle 45")

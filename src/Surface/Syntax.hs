@@ -14,6 +14,8 @@ module Surface.Syntax
   ( Program (..),
     Statement,
     Statement_ (..),
+    HoleWork (..),
+    HoleSize (..),
     Cutter,
     Cutter_ (..),
     BodySize,
@@ -142,6 +144,9 @@ data Statement_
     Turn Expr (Located Side) [Setting]
   | -- | @drill at holes depth 12 mm { … }@
     Drill Expr Expr [Setting]
+  | -- | @ream at holes depth 12 mm { … }@ and the other works on holes: the work, the points, the
+    -- sizes of the holes, the side of a thread, the settings
+    Hole HoleWork Expr [(HoleSize, Expr)] (Maybe (Located Side)) [Setting]
   | -- | @rapid p, q@ and @move p, q feed f@
     Travel DefaultPace (NonEmpty Stop)
   | -- | @change 2 drill(diameter 5 mm)@ and @change 2 drill(diameter 5 mm) at (0, 0)@: the number,
@@ -170,6 +175,21 @@ data Statement_
     Broken (Maybe Text) (Maybe (Located Name))
   deriving stock (Eq, Show)
 
+-- | A work on holes other than drilling.
+data HoleWork
+  = Spotting
+  | Reaming
+  | Countersinking
+  | Counterboring
+  | Boring
+  | Tapping
+  | Threading
+  deriving stock (Eq, Show, Enum, Bounded)
+
+-- | A size of a hole.
+data HoleSize = HoleDiameter | HoleDepth | HolePitch | HoleAngle
+  deriving stock (Eq, Show, Enum, Bounded)
+
 -- | A machine by its name, or by the file with its description.
 data MachineRef = Named Text | Described Text
   deriving stock (Eq, Show)
@@ -188,6 +208,10 @@ data Cutter_
   | -- | @cone(diameter d, bevel a, height h)@: a conical mill. The arguments are the diameter of
     -- the tip of the mill, the bevel of its flank, and the height of the contour above the tip.
     ConeCutter Expr Expr Expr
+  | -- | @tap(diameter d)@, with the sizes of its body
+    TapCutter Expr [BodySize]
+  | -- | @threadmill(diameter d, pitch p)@, with the sizes of its body
+    ThreadMillCutter Expr Expr [BodySize]
   | -- | @blade(diameter d, gear e)@: a swivelling blade. The arguments are the diameter of the
     -- blade and the diameter of the gear wheel that swivels the blade.
     BladeCutter Expr Expr
@@ -202,6 +226,8 @@ data BodySize_
     Flutes Expr
   | -- | @stickout s@: the length from the tip to the holder
     StickOut Expr
+  | -- | @angle a@: the angle of the point of a drill
+    PointAngle Expr
   | -- | @holder d@ and @holder d height h@: the diameter of a cylinder of the holder, its height
     HolderCylinder Expr (Maybe Expr)
   deriving stock (Eq, Show)
@@ -437,6 +463,16 @@ data Setting_
     ShortestWay
   | -- | @angle 45@: the direction of the passes
     Angle Expr
+  | -- | @chip break 0.5 mm@: the rise after each peck that does not leave the hole
+    ChipBreak Expr
+  | -- | @dwell 0.5 s@: the number of seconds at the bottom of a hole
+    Pause Expr
+  | -- | @pitch 0.5 mm@: the depth of one turn of a counterbore
+    TurnPitch Expr
+  | -- | @hand left@ and @hand right@: the hand of a thread
+    Hand Side
+  | -- | @floating@: the tap is held in a floating holder
+    Floating
   | -- | @islands a, b@: contours in a pocket that are left uncut
     Islands (NonEmpty Expr)
   | -- | @rest allowed@: rest material is accepted

@@ -110,6 +110,7 @@ ofStatement (Located _ s) = case s of
   Face e stepover settings -> e : stepover : concatMap ofSetting settings
   Turn e _ settings -> e : concatMap ofSetting settings
   Drill e deep settings -> e : deep : concatMap ofSetting settings
+  Hole _ e sizes _ settings -> e : map snd sizes <> concatMap ofSetting settings
   Travel _ stops -> concatMap ofStop (NonEmpty.toList stops)
   Change e c place -> e : ofCutter c <> maybeToList place
   Spindle spin -> ofSpin spin
@@ -196,6 +197,8 @@ ofCutter :: Cutter -> [Expr]
 ofCutter (Located _ c) = case c of
   MillCutter e sizes -> e : concatMap ofBodySize sizes
   DrillCutter e sizes -> e : concatMap ofBodySize sizes
+  TapCutter e sizes -> e : concatMap ofBodySize sizes
+  ThreadMillCutter e pitch sizes -> e : pitch : concatMap ofBodySize sizes
   TurningCutter e tip -> e : maybeToList tip
   ConeCutter a b d -> [a, b, d]
   BladeCutter a b -> [a, b]
@@ -204,6 +207,7 @@ ofBodySize :: BodySize -> [Expr]
 ofBodySize (Located _ s) = case s of
   Flutes e -> [e]
   StickOut e -> [e]
+  PointAngle e -> [e]
   HolderCylinder d h -> d : maybeToList h
 
 ofHeights :: Maybe (Expr, Expr) -> [Expr]
@@ -265,6 +269,11 @@ ofSetting (Located _ s) = case s of
   Peck e -> [e]
   ShortestWay -> []
   Angle e -> [e]
+  ChipBreak e -> [e]
+  Pause e -> [e]
+  TurnPitch e -> [e]
+  Hand _ -> []
+  Floating -> []
   Islands es -> NonEmpty.toList es
   RestAllowed -> []
   BrokenSetting -> []

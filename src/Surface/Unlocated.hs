@@ -62,6 +62,9 @@ statement s = case s of
   Face e step settings -> Face (expr e) (expr step) (map (unlocated setting) settings)
   Turn e side settings -> Turn (expr e) (here side) (map (unlocated setting) settings)
   Drill at depth settings -> Drill (expr at) (expr depth) (map (unlocated setting) settings)
+  Hole work at sizes side settings ->
+    let sizes' = fmap (fmap expr) sizes
+     in Hole work (expr at) sizes' (fmap here side) (map (unlocated setting) settings)
   Travel motion stops -> Travel motion (fmap stop stops)
   Change number c place -> Change (expr number) (unlocated cutter c) (fmap expr place)
   Spindle spin -> Spindle (command spin)
@@ -127,6 +130,9 @@ cutter :: Cutter_ -> Cutter_
 cutter c = case c of
   MillCutter e sizes -> MillCutter (expr e) (map (unlocated bodySize) sizes)
   DrillCutter e sizes -> DrillCutter (expr e) (map (unlocated bodySize) sizes)
+  TapCutter e sizes -> TapCutter (expr e) (map (unlocated bodySize) sizes)
+  ThreadMillCutter e pitch sizes ->
+    ThreadMillCutter (expr e) (expr pitch) (map (unlocated bodySize) sizes)
   TurningCutter e tip -> TurningCutter (expr e) (fmap expr tip)
   ConeCutter d a h -> ConeCutter (expr d) (expr a) (expr h)
   BladeCutter d g -> BladeCutter (expr d) (expr g)
@@ -135,6 +141,7 @@ bodySize :: BodySize_ -> BodySize_
 bodySize s = case s of
   Flutes e -> Flutes (expr e)
   StickOut e -> StickOut (expr e)
+  PointAngle e -> PointAngle (expr e)
   HolderCylinder d h -> HolderCylinder (expr d) (fmap expr h)
 
 -- | An expression in which all regions are replaced by the region @at@.
@@ -207,6 +214,11 @@ setting s = case s of
   Tabs (TabsAt ps) w h a -> Tabs (TabsAt (fmap expr ps)) (expr w) (expr h) (expr <$> a)
   Peck e -> Peck (expr e)
   Angle e -> Angle (expr e)
+  ChipBreak e -> ChipBreak (expr e)
+  Pause e -> Pause (expr e)
+  TurnPitch e -> TurnPitch (expr e)
+  Hand side -> Hand side
+  Floating -> Floating
   Islands es -> Islands (fmap expr es)
   ShortestWay -> ShortestWay
   RestAllowed -> RestAllowed

@@ -1,20 +1,47 @@
--- | The moves of drilling. At each hole the drill moves above the hole in rapid, goes down at the
--- feed, and goes up again in rapid.
+-- | The moves of drilling and of the other works on holes. At each hole the tool moves above the
+-- hole in rapid, makes the hole, and comes back to the clearance height.
 module Toolpath.DrillMove
-  ( moves,
+  ( PeckRule (..),
+    moves,
+    withRule,
+    commandsAfter,
   )
 where
 
-import Base.Quantity (Mm (..), plus)
-import Base.Region (Located (..))
+import Base.Quantity (Mm (..), minus, over, plus, times)
+import Base.Region (Located (..), Region)
 import Data.List.NonEmpty qualified as NonEmpty
-import Geometry.Segment (Segment (Straight))
+import Geometry.Carrier (Sense (..))
+import Geometry.Segment (Segment (..))
+import Geometry.Segment qualified as Segment
 import Geometry.Tolerance qualified as Tolerance
-import Part.Part (Drilling, Hole (Hole), SpacePoint (..))
+import Geometry.Vec (Point)
+import Geometry.Vec qualified as Vec
+import Part.CutFeed (SpindleRate (..))
+import Part.CutFeed qualified as CutFeed
+import Part.Part
+  ( Circling (..),
+    Drilling,
+    Hole (Hole),
+    HoleForm (..),
+    SpacePoint (..),
+    ThreadHelix (..),
+  )
 import Part.Part qualified as Part
 import Toolpath.HoleOrder qualified as HoleOrder
 import Toolpath.LinkingMove qualified as LinkingMove
 import Toolpath.Toolpath (Manner (Manner), Move (Move))
+import Toolpath.Toolpath qualified as Toolpath
+
+-- | The pecks of a control's own cycle. They are counted from the clearance height, and all but the
+-- last one are as deep as the program allows.
+data PeckRule = PeckRule
+  { -- | the height above the end of one peck at which the rapid move to the next one ends
+    peckReturn :: Mm,
+    -- | the unit of the depth of a peck, which is rounded down
+    peckUnit :: Mm
+  }
+  deriving stock (Eq, Show)
 
 -- | The moves of a drilling statement; @at@ is the tool's position before the statement. A tool
 -- below the clearance height rises to that height first. "Toolpath.HoleOrder" gives the order of
@@ -28,33 +55,209 @@ moves at (Located region d) =
     clear = Part.travelHeight d
     go from holes = case holes of
       [] -> []
-      Hole (Located hole p) bottom : rest ->
-        let over =
-              LinkingMove.straightMoves from [Part.Stop (Located hole p) (Just clear) Part.Rapid]
-         in over
-              <> [ Move (Straight p p) (Manner heights pace False) hole False
-                   | (heights, pace) <- pecksTo bottom
-                 ]
-              <> go (SpacePoint p clear) rest
-    -- The vertical moves in a hole.
-    pecksTo bottom =
-      let depths = depthsOf d bottom
-       in concat (zipWith peck (Nothing : map Just depths) depths)
-    peck before z =
-      let from = maybe clear (\b -> min clear (plus b peckGap)) before
-       in [((clear, from), Part.Rapid) | from /= clear]
-            <> [((from, z), Part.At (Part.drillFeed d)), ((z, clear), Part.Rapid)]
+      h@(Hole (Located hole p) _) : rest ->
+        let made = strokes Nothing d h
+            begin = maybe p (Segment.start . path) (firstOf made)
+            end = maybe p (Segment.end . path) (firstOf (reverse made))
+            over' =
+              LinkingMove.straightMoves
+                from
+                [Part.Stop (Located hole begin) (Just clear) Part.Rapid]
+         in over' <> map (moveOf hole) made <> go (SpacePoint end clear) rest
+    firstOf list = case list of
+      s : _ -> Just s
+      [] -> Nothing
 
--- | The heights at which the pecks of a hole end, in order; @bottom@ is the height of its bottom.
--- All pecks have equal depths, at most the depth that the program gives. If this would need more
--- than 10000 pecks, there are 10000 deeper ones. Without pecking the only height is the bottom's.
-depthsOf :: Drilling -> Mm -> [Mm]
-depthsOf d (Mm bottom) = case Part.peckDepth d of
-  Nothing -> [Mm bottom]
-  Just (Mm most) ->
-    let count = max 1 (min 10000 (ceiling (-bottom / most - Tolerance.equal))) :: Int
-     in [Mm (bottom * fromIntegral k / fromIntegral count) | k <- [1 .. count]]
+moveOf :: Region -> Stroke -> Move
+moveOf hole (Stroke s zs pace) = Move s (Manner zs pace False) hole False
+
+-- | One move at a hole: its path, its heights, and its speed.
+data Stroke = Stroke {path :: Segment, _between :: (Mm, Mm), _speed :: Part.Pace}
+
+-- | The moves at a hole, from the clearance height back to it.
+strokes :: Maybe PeckRule -> Drilling -> Hole -> [Stroke]
+strokes rule d hole@(Hole (Located _ p) bottom) = case Part.form d of
+  Plunged -> pecks rule d hole
+  Reamed -> inAndOut
+  Tapped _ -> inAndOut
+  Bored c -> circled d c hole
+  Threaded h -> threaded d h hole
+  where
+    clear = Part.travelHeight d
+    down = Part.At (Part.drillFeed d)
+    inAndOut =
+      [ Stroke (Straight p p) (clear, bottom) down,
+        Stroke (Straight p p) (bottom, clear) down
+      ]
+
+-- | Straight down in pecks. Without pecks there is one move down.
+pecks :: Maybe PeckRule -> Drilling -> Hole -> [Stroke]
+pecks rule d (Hole (Located _ p) bottom) = go clear ends
+  where
+    clear = Part.travelHeight d
+    ends = depthsOf rule d bottom
+    go _ [] = []
+    go from (z : more) =
+      vertical (from, z) (Part.At (Part.drillFeed d)) : case (more, Part.chipRise d) of
+        ([], _) -> [vertical (z, clear) Part.Rapid]
+        (_, Just rise) ->
+          let up = min clear (plus z rise) in vertical (z, up) Part.Rapid : go up more
+        (_, Nothing) ->
+          let back = min clear (plus z (maybe peckGap peckReturn rule))
+           in vertical (z, clear) Part.Rapid :
+              [vertical (clear, back) Part.Rapid | back /= clear]
+                <> go back more
+    vertical = Stroke (Straight p p)
+
+-- | The heights at which the pecks of a hole end, in order; @bottom@ is the height of its bottom. Without a rule all pecks have equal
+-- depths, at most the depth that the program gives. If this would need more than 10000 pecks, there
+-- are 10000 deeper ones. Without pecking the only height is that of the hole's bottom.
+depthsOf :: Maybe PeckRule -> Drilling -> Mm -> [Mm]
+depthsOf rule d bottom = case (Part.peckDepth d, rule) of
+  (Nothing, _) -> [bottom]
+  (Just most, Nothing) ->
+    let count = countOf (minus (Mm 0) bottom) most
+     in [times (fromIntegral k / fromIntegral count) bottom | k <- [1 .. count]]
+  (Just most, Just PeckRule {peckUnit}) ->
+    let whole = max 1 (floor (over most peckUnit + Tolerance.equal)) :: Int
+        step = times (fromIntegral whole) peckUnit
+        ends = [minus clear (times (fromIntegral k) step) | k <- [1 :: Int ..]]
+     in takeWhile (\z -> minus z bottom > times Tolerance.equal peckUnit) ends <> [bottom]
+  where
+    clear = Part.travelHeight d
+    countOf :: Mm -> Mm -> Int
+    countOf deep most = max 1 (min 10000 (ceiling (over deep most - Tolerance.equal)))
 
 -- | The height above the end of one peck at which the rapid move down to the next peck ends.
 peckGap :: Mm
 peckGap = Mm 0.5
+
+-- | A helix along the wall of a hole, from the top of the part to the bottom, and a full circle
+-- there. To clear the floor, the helix keeps to the middle, and further circles follow outwards. A
+-- cutter that has cleared the middle goes there before it rises.
+circled :: Drilling -> Circling -> Hole -> [Stroke]
+circled d c (Hole (Located _ p) bottom) =
+  [Stroke (Straight begin begin) (clear, Mm 0) (Part.At (Part.drillFeed d))]
+    <> concat [halves first (level (k - 1), level k) | k <- [1 .. turns]]
+    <> halves first (bottom, bottom)
+    <> concat
+      [ Stroke (Straight (at (fst ring)) (at (snd ring))) (bottom, bottom) feed :
+        halves (snd ring) (bottom, bottom)
+        | ring <- zip rings (drop 1 rings)
+      ]
+    <> [Stroke home (bottom, bottom) feed | isClear]
+    <> [Stroke (Straight end end) (bottom, clear) Part.Rapid]
+  where
+    clear = Part.travelHeight d
+    feed = Part.At (circleFeed c)
+    tool = Part.drillRadius d
+    outer = minus (boreRadius c) tool
+    ringCount
+      | clearsFloor c = max 1 (ceiling (over outer tool - Tolerance.equal)) :: Int
+      | otherwise = 1
+    rings = [times (fromIntegral k / fromIntegral ringCount) outer | k <- [1 .. ringCount]]
+    first = case rings of
+      r : _ -> r
+      [] -> outer
+    begin = at first
+    at (Mm r) = Vec.shift (Vec.vec r 0) p
+    across (Mm r) = Vec.shift (Vec.vec (-r) 0) p
+    halves r (from, to) =
+      let middle = plus from (times 0.5 (minus to from))
+       in [ Stroke (arc (at r) (across r)) (from, middle) feed,
+            Stroke (arc (across r) (at r)) (middle, to) feed
+          ]
+    arc a b = Segment.arc (circleSense c) p a b
+    turns = max 1 (ceiling (over (minus (Mm 0) bottom) (turnDepth c) - Tolerance.equal)) :: Int
+    level k = times (fromIntegral k / fromIntegral turns) bottom
+    isClear = outer <= plus (if clearsFloor c then outer else tool) Tolerance.coincident
+    home = halfTurn (circleSense c) (at outer) p
+    end = if isClear then p else at outer
+
+-- | The half circle in a sense from one point to another.
+halfTurn :: Sense -> Point -> Point -> Segment
+halfTurn sense a b = Segment.arc sense (Vec.shift (Vec.scale 0.5 (Vec.to a b)) a) a b
+
+-- | A thread: a half circle onto the helix, whole turns along it, and a half circle off it. All of
+-- them rise or fall by the pitch for each turn.
+threaded :: Drilling -> ThreadHelix -> Hole -> [Stroke]
+threaded d h (Hole (Located _ p) low) =
+  [ Stroke (Straight away away) (clear, zBegin) (Part.At (Part.drillFeed d)),
+    Stroke (halfTurn leadSense away onHelix) (zBegin, move 0.5) feed
+  ]
+    <> concat
+      [ [ Stroke (arc onHelix opposite) (move (t + 0.5), move (t + 1)) feed,
+          Stroke (arc opposite onHelix) (move (t + 1), move (t + 1.5)) feed
+        ]
+        | t <- map fromIntegral [0 .. turns - 1]
+      ]
+    <> [ Stroke (halfTurn leadSense onHelix away) (move (count + 0.5), zEnd) feed,
+         Stroke (Straight away away) (zEnd, clear) Part.Rapid
+       ]
+  where
+    clear = Part.travelHeight d
+    feed = Part.At (helixFeed h)
+    tool = Part.drillRadius d
+    radius
+      | isInside h = minus (toothRadius h) tool
+      | otherwise = plus (toothRadius h) tool
+    onHelix = east radius
+    opposite = east (times (-1) radius)
+    away = if isInside h then p else east (plus radius (times 2 tool))
+    east (Mm x) = Vec.shift (Vec.vec x 0) p
+    leadSense
+      | isInside h = helixSense h
+      | otherwise = case helixSense h of
+        Clockwise -> CounterClockwise
+        CounterClockwise -> Clockwise
+    arc a b = Segment.arc (helixSense h) p a b
+    turns =
+      max
+        1
+        (ceiling (over (minus (Mm 0) low) (pitch h) - 0.5 - Tolerance.equal)) ::
+        Int
+    count = fromIntegral turns :: Double
+    high = plus low (times (count + 1) (pitch h))
+    (zBegin, zEnd) = if rises h then (low, high) else (high, low)
+    move t = plus zBegin (times (if rises h then t else -t) (pitch h))
+
+-- | The moves of a drilling statement with the pecks of a control's own cycle in place of those
+-- that begin at the clearance height above a hole and come back to it.
+withRule :: PeckRule -> Drilling -> [Move] -> [Move]
+withRule rule d ms = case ms of
+  [] -> []
+  m : more -> case filter (isMadeBy ms) (NonEmpty.toList (Part.holes d)) of
+    hole : _ ->
+      map (moveOf (Toolpath.origin m)) (strokes (Just rule) d hole)
+        <> withRule rule d (drop (length (strokes Nothing d hole)) ms)
+    [] -> m : withRule rule d more
+  where
+    isMadeBy list hole =
+      let made = strokes Nothing d hole
+       in map asStroke (take (length made) list) == map (\(Stroke s zs _) -> (s, zs)) made
+    asStroke m = (Toolpath.segment m, Toolpath.heights m)
+
+-- | The commands after a move of a drilling statement: the pause at the bottom of a hole, and the
+-- reversals of the spindle of a tap.
+commandsAfter :: Drilling -> Move -> [Part.Command]
+commandsAfter d m = case Part.form d of
+  Tapped t
+    | isFeed && to < from -> pause <> [Part.SpindleOn (reversed (Part.tapSense t)) rate]
+    | isFeed -> [Part.SpindleOn (Part.tapSense t) rate]
+  Plunged | isFeed && to `elem` bottomsHere -> pause
+  _ -> []
+  where
+    (from, to) = Toolpath.heights m
+    isFeed = Toolpath.pace m /= Part.Rapid && from /= to
+    bottomsHere =
+      [ bottom
+        | Hole (Located _ p) bottom <- NonEmpty.toList (Part.holes d),
+          p == Segment.end (Toolpath.segment m)
+      ]
+    pause = [Part.Dwell t | Just t <- [Part.bottomPause d]]
+    rate = case value (Part.drillFeed d) of
+      CutFeed.PerTurn _ r -> r
+      CutFeed.PerMinute _ -> NoRate
+    reversed s = case s of
+      Part.Clockwise -> Part.CounterClockwise
+      Part.CounterClockwise -> Part.Clockwise

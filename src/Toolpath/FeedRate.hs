@@ -62,7 +62,14 @@ pocketing rate p =
   p {Part.wall = milling rate (Part.wall p), Part.islands = map (contour rate) (Part.islands p)}
 
 drilling :: SpindleRate -> Drilling -> Drilling
-drilling rate d = d {Part.drillFeed = located rate (Part.drillFeed d)}
+drilling rate d =
+  d
+    { Part.drillFeed = located rate (Part.drillFeed d),
+      Part.form = case Part.form d of
+        Part.Bored c -> Part.Bored c {Part.circleFeed = located rate (Part.circleFeed c)}
+        Part.Threaded h -> Part.Threaded h {Part.helixFeed = located rate (Part.helixFeed h)}
+        other -> other
+    }
 
 -- | A contour without feeds for one turn stays the same in memory.
 contour :: SpindleRate -> Contour -> Contour

@@ -95,7 +95,7 @@ intrusionsOfBlock machined b = case b of
   Commanding _ -> []
   Travelling radius' _ ms -> concatMap (found (Intruder radius' Nothing Nothing)) ms
   Holing (Located _ d) ms ->
-    map (asHole d) (concatMap (found (Intruder (Part.drillRadius d) Nothing Nothing)) ms)
+    map (asHole d) (concatMap (found (Intruder (widthOf d) Nothing Nothing)) ms)
   Cutting {} -> intrusionsOfPass machined b
   Clearing {pocket = job@(Located _ p), pass, approach, cleared, retract} ->
     let clearing = Intruder (radius (Part.wall p)) Nothing Nothing
@@ -111,6 +111,8 @@ intrusionsOfBlock machined b = case b of
             )
   where
     found = intrusionsOfMove machined
+    -- A pointed tool is no wider than the mouth of its hole.
+    widthOf d = min (Part.drillRadius d) (Part.mouthRadius d)
     asHole d e = case e of
       CutsPart at move element deep _ _ _ ->
         HoleCuts at (Segment.end move) [] element deep (Part.drillRadius d) (Part.drillSize d)

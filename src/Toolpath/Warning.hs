@@ -169,7 +169,7 @@ intoHoles path =
     holes =
       BoxTree.index
         (\h -> BoundingBox.inflate (holeRadius h) (BoundingBox.ofPoints (value (holeAt h)) []))
-        [ DrilledHole n h (Part.drillRadius d) bottom
+        [ DrilledHole n h (Part.mouthRadius d) bottom
           | (n, Holing (Located _ d) _) <- numbered,
             Part.Hole h bottom <- NonEmpty.toList (Part.holes d)
         ]

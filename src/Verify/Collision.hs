@@ -272,14 +272,22 @@ endless = Mm (-1 / 0)
 outlinesOf :: Block -> [[Segment]]
 outlinesOf block = case block of
   Toolpath.Holing (Located _ d) _ ->
-    [ [circle (Part.drillRadius d) p]
-      | Part.Hole (Located _ p) _ <- NonEmpty.toList (Part.holes d)
+    [ [circle (Part.mouthRadius d) p]
+      | makesHole (Part.form d),
+        Part.Hole (Located _ p) _ <- NonEmpty.toList (Part.holes d)
     ]
   Toolpath.Clearing {Toolpath.pocket = Located _ p} ->
     [concatMap segmentsOf (Part.contour (Part.wall p) : Part.islands p)]
   _ -> []
   where
     segmentsOf = map Part.segment . NonEmpty.toList . Part.elements
+    -- The others work on holes and studs that are there before.
+    makesHole form = case form of
+      Part.Plunged -> True
+      Part.Bored _ -> True
+      Part.Reamed -> False
+      Part.Tapped _ -> False
+      Part.Threaded _ -> False
     circle r@(Mm x) p =
       Segment.fullCircle CounterClockwise (Circle p r) (Vec.shift (Vec.vec x 0) p)
 

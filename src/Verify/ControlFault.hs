@@ -17,6 +17,7 @@ import Gcode.ModalState (Coolant (..))
 import Machine.ProgramForm (Lathe (..), ProgramForm (..), Retract (..), XMeaning (..))
 import Report.Report (Report (hints, label, message, others), ReportCode, ReportPlace (..), report)
 import Report.Report qualified as Report
+import Verify.ControlText
 
 -- | Fault of the state at a line, and the line that set the wrong value; Nothing if none did.
 data ControlFinding = ControlFinding
@@ -84,6 +85,10 @@ data ControlFault
     NoSpeedLimit
   | -- | the file ends while the spindle turns
     SpindleLeftOn
+  | -- | a tap is moved outside of a tapping cycle
+    TapUnguided
+  | -- | a tap is moved by another pitch: this pitch, and that of the program
+    OtherTapPitch Mm Mm
   deriving stock (Eq, Ord, Show)
 
 -- | Mode in which the control reads numbers, or computes the path.
@@ -133,16 +138,8 @@ changesReading f = case f of
   ThroughProfile -> False
   NoSpeedLimit -> False
   SpindleLeftOn -> False
-
--- | Words of a report: its title, the label at the motion, the label at the line that set the wrong
--- value, the reason and the remedy.
-data Wording = Wording
-  { title :: Text,
-    here :: Text,
-    there :: Text,
-    reason :: Text,
-    remedy :: Text
-  }
+  TapUnguided -> False
+  OtherTapPitch _ _ -> False
 
 -- | Report of a finding. @lineRegion@ gives the region of a line of the file.
 toReport :: ProgramForm -> (Int -> Region) -> ControlFinding -> Report
@@ -185,6 +182,8 @@ codeOf f = case f of
   ThroughProfile -> "E0738"
   NoSpeedLimit -> "E0739"
   SpindleLeftOn -> "E0741"
+  TapUnguided -> "E0750"
+  OtherTapPitch _ _ -> "E0750"
 
 -- | Words for a fault. @isUnset@ is true if no line has set the value.
 wordsOf :: ProgramForm -> Bool -> ControlFault -> Wording
@@ -222,6 +221,8 @@ wordsOf form isUnset f = case f of
   ThroughProfile -> throughProfile
   NoSpeedLimit -> noSpeedLimit
   SpindleLeftOn -> spindleLeftOn
+  TapUnguided -> tapUnguided
+  OtherTapPitch found wanted -> otherTapPitch found wanted
 
 -- | Labels of motions.
 cuts, descends :: Text

@@ -45,7 +45,10 @@ data StateDemand = StateDemand
     -- | coolant that runs if the program has switched it on
     runningCoolant :: Coolant,
     -- | largest deviation at corners, if the program has no contour whose tolerance bounds it
-    mostBlending :: Maybe Mm
+    mostBlending :: Maybe Mm,
+    -- | numbers of the taps, and the pitches of their threads
+    tapNumbers :: [Int],
+    tapPitches :: [Mm]
   }
   deriving stock (Eq, Show)
 
@@ -143,6 +146,7 @@ cutState demand step travel =
   (if isByHand demand then [] else spindleFindings)
     <> [finding (plane m) WrongPlane | valueOf (plane m) /= Just (cuttingPlane demand)]
     <> feedFindings
+    <> tapFindings demand step
     <> [ finding (arcCentres m) (ModeUnknown ArcCentreMode)
          | isArc,
            isNothing (valueOf (arcCentres m))
@@ -154,6 +158,7 @@ cutState demand step travel =
       ArcMode _ -> True
       LinearMode -> False
       RapidMode -> False
+      CycleMode _ -> False
     spindleFindings = case valueOf (spindle m) of
       Just (SpindleTurning _)
         | Just s <- valueOf (speed m), s > 0 -> speedFindings
@@ -179,6 +184,23 @@ cutState demand step travel =
         | isJust (valueOf (units m)),
           maybe True (<= 0) (valueOf (feed m))
       ]
+
+-- | Faults of a cut with a tap: it needs a tapping cycle, and the pitch of a thread of the program.
+tapFindings :: StateDemand -> Step -> [ControlFinding]
+tapFindings demand step
+  | valueOf (toolInSpindle m) `notElem` map Just (tapNumbers demand) = []
+  | otherwise = case valueOf (motionMode m) of
+    Just (CycleMode SynchronousCycle) ->
+      [bad (OtherTapPitch p wanted) | p <- pitch, wanted : _ <- [others p]]
+    Just (CycleMode TappingCycle) -> []
+    _ -> [bad TapUnguided]
+  where
+    m = state step
+    bad = ControlFinding (line step) Nothing
+    pitch = [Mm (f / n) | Just f <- [valueOf (feed m)], Just n <- [valueOf (speed m)], n > 0]
+    others (Mm p)
+      | or [abs (p - q) <= 1.0e-6 | Mm q <- tapPitches demand] = []
+      | otherwise = tapPitches demand
 
 -- | Faults of the path mode and of the coolant at a motion in work coordinates, rapid moves
 -- included.

@@ -24,6 +24,7 @@ import Frame.Frame qualified as Frame
 import Gcode.Block (Fault)
 import Gcode.Heading (FileHeading (..))
 import Gcode.Heading qualified as Heading
+import Gcode.HoleCycle qualified as HoleCycle
 import Gcode.ModalState (Coolant (..), Plane (..))
 import Gcode.Run qualified as Run
 import Gcode.ToFrames (GcodeReading (..), ReadFrame (..))
@@ -127,7 +128,10 @@ demandOf machine form heading program hasContours =
       hasTurnFeeds = isJust (Machine.turnFeeds (Machine.feeds machine)),
       latheDemand = latheDemandOf machine heading <$> lathe form,
       runningCoolant = if switchesMist then Mist else Flood,
-      mostBlending = if hasContours then Nothing else Just (Machine.planeResolution machine)
+      mostBlending = if hasContours then Nothing else Just (Machine.planeResolution machine),
+      tapNumbers =
+        [n | (n, c) <- Map.toList (cutters heading), Part.kind c == Part.TappingCutter],
+      tapPitches = map HoleCycle.tapPitch (Map.elems (tapNeeds heading))
     }
   where
     inPicometres (Pulses n) = n * round (resolution * 1.0e9)

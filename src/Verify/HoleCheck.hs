@@ -7,6 +7,7 @@ where
 import Base.Quantity (Mm (..), minus, times)
 import Base.Region (Located (..))
 import Data.List.NonEmpty qualified as NonEmpty
+import Data.Maybe (isNothing)
 import Geometry.Index.BoundingBox qualified as BoundingBox
 import Geometry.Index.BoxTree qualified as BoxTree
 import Geometry.Segment qualified as Segment
@@ -28,6 +29,8 @@ missingHoles :: Machine -> Toolpath -> [CutterMotion] -> [Finding]
 missingHoles machine path motions =
   [ HoleMissing at p
     | Toolpath.Holing (Located _ drilling) _ <- Toolpath.blocks path,
+      -- The moves of circles are compared one by one.
+      isNothing (Part.runsOf drilling),
       Part.Hole (Located at p) bottom <- NonEmpty.toList (Part.holes drilling),
       not (any (isDrilled machine bottom p) (near p))
   ]

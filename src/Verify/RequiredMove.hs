@@ -33,7 +33,7 @@ import Machine.Machine (Machine)
 import Machine.Machine qualified as Machine
 import Part.AvoidedSolid (AvoidedSolid)
 import Part.AvoidedSolid qualified as AvoidedSolid
-import Part.Part (Cutter, Drilling, Milling, Pace, SpacePoint (..))
+import Part.Part (Cutter, Milling, Pace, SpacePoint (..))
 import Part.Part qualified as Part
 import Toolpath.Toolpath (Block, Move, Sent, Toolpath)
 import Toolpath.Toolpath qualified as Toolpath
@@ -47,9 +47,9 @@ import Verify.Motion qualified as Motion
 import Verify.MotionSet qualified as MotionSet
 import Verify.Pocket (ClearingPass, Pocket)
 import Verify.Pocket qualified as Pocket
+import Verify.RequiredHole qualified as RequiredHole
 import Verify.RequiredLink (Place (Place), RequiredLink (RequiredLink))
 import Verify.RequiredLink qualified as RequiredLink
-import Verify.RequiredOrder qualified as RequiredOrder
 import Verify.Requirement qualified as Requirement
 
 -- | Move that the program asks for.
@@ -118,7 +118,12 @@ itemsOfBlock ::
 itemsOfBlock machine isFlat solids left@(along, clearing) visit = case block of
   Toolpath.Travelling _ stops _ -> (left, links pulse (RequiredLink.stopMoves begin stops))
   Toolpath.Holing drilling _ ->
-    (left, map Single (concatMap (overHoles drilling) (holeMoves pulse begin drilling)))
+    ( left,
+      map Single $
+        concatMap
+          (overHoles drilling . moveOf (RequiredHole.slackOf machine (value drilling)))
+          (RequiredHole.holeLinks machine begin drilling)
+    )
   Toolpath.Commanding _ -> (left, [])
   Toolpath.Cutting {Toolpath.job, Toolpath.sent = Just s} ->
     ((drop 1 along, clearing), singles (slackOf machine (value job)) (edgeMoves s))
@@ -288,10 +293,12 @@ alongOr s other = if Segment.length s > Tolerance.coincident then s else other
 -- | Items of linking moves. @slack@ is the largest distance in mm of a motion from its move, in the
 -- plane.
 links :: Mm -> [RequiredLink] -> [RequiredItem]
-links slack = map single
-  where
-    single (RequiredLink path between pace origin) =
-      Single RequiredMove {path, between, slack, pace, slows = False, origin}
+links slack = map (Single . moveOf slack)
+
+-- | Linking move as a move of the program, with its 'slack'.
+moveOf :: Mm -> RequiredLink -> RequiredMove
+moveOf slack (RequiredLink path between pace origin) =
+  RequiredMove {path, between, slack, pace, slows = False, origin}
 
 -- | Positions of the cutter at the beginnings of the blocks of a toolpath.
 beginnings :: Toolpath -> [SpacePoint]
@@ -299,43 +306,6 @@ beginnings toolpath = scanl after (value (Toolpath.start toolpath)) (Toolpath.bl
   where
     after at = foldl' (\_ m -> endOf m) at . Toolpath.moves
     endOf m = SpacePoint (Segment.end (Toolpath.segment m)) (snd (Toolpath.heights m))
-
--- | Moves of a drilling statement, as the manual describes them (docs/language.md, "Drilling"). The
--- drill goes from hole to hole in rapid at the clearance height, in the order of
--- "Verify.RequiredOrder". In a hole it goes down at the feed
--- of the statement, and rises in rapid to the clearance height. With pecks it goes down in equal
--- steps, none deeper than the peck. It returns in rapid to 0.5 mm above the end of the step before,
--- but not above the clearance height. @begin@ is the drill's position before the statement. @slack@
--- is the largest distance in mm of a motion from its move, in the plane.
-holeMoves :: Mm -> SpacePoint -> Located Drilling -> [RequiredMove]
-holeMoves slack begin (Located statement drilling) =
-  [vertical statement at (height begin, clear) Part.Rapid | height begin < clear]
-    <> concat (zipWith hole (SpacePoint at (max clear (height begin)) : overHoles) holes)
-  where
-    at = plane begin
-    clear = Part.travelHeight drilling
-    holes = RequiredOrder.holesInOrder at drilling
-    overHoles = map (\h -> SpacePoint (value (Part.holeCentre h)) clear) holes
-    hole (SpacePoint from z) Part.Hole {Part.holeCentre = Located region p, Part.holeBottom} =
-      let steps = stepsDown holeBottom
-       in move region (Straight from p) (z, clear) Part.Rapid :
-          concat (zipWith (step region p) (clear : map returning steps) steps)
-    step region p from to =
-      [ vertical region p (clear, from) Part.Rapid,
-        vertical region p (from, to) (Part.At (Part.drillFeed drilling)),
-        vertical region p (to, clear) Part.Rapid
-      ]
-    returning z = min clear (plus z (Mm 0.5))
-    stepsDown bottom =
-      let count = maybe 1 (stepCount bottom) (Part.peckDepth drilling)
-       in [times (fromIntegral k / fromIntegral count) bottom | k <- [1 .. count]]
-    vertical region p = move region (Straight p p)
-    move origin path between pace =
-      RequiredMove {path, between, slack, pace, slows = False, origin}
-
--- | Least number of equal steps down to a depth, none of them deeper than the peck; 10000 at most.
-stepCount :: Mm -> Mm -> Int
-stepCount (Mm bottom) (Mm peck) = max 1 (min 10000 (ceiling (-bottom / peck - Tolerance.equal)))
 
 -- | Moves that a control with cutter compensation gets in place of the toolpath.
 edgeMoves :: Sent -> [Move]

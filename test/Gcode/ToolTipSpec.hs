@@ -128,7 +128,8 @@ headingOf tools =
       isSpindleByHand = False,
       cutters = Map.fromList tools,
       insidePasses = Set.empty,
-      turnings = []
+      turnings = [],
+      tapNeeds = Map.empty
     }
 
 headings :: Gen FileHeading

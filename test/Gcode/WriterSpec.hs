@@ -87,7 +87,8 @@ heading =
       isSpindleByHand = False,
       cutters = Map.empty,
       insidePasses = Set.empty,
-      turnings = []
+      turnings = [],
+      tapNeeds = Map.empty
     }
 
 textsOf :: Machine -> FileHeading -> FrameProgram -> [Writer.ToolFile]

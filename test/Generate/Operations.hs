@@ -101,6 +101,10 @@ drilling = do
         Part.drillRadius = Mm 2.5,
         Part.travelHeight = clear,
         Part.peckDepth = peck,
+        Part.chipRise = Nothing,
+        Part.bottomPause = Nothing,
+        Part.form = Part.Plunged,
+        Part.mouthRadius = Mm 2.5,
         Part.drillFeed = here (PerMinute (Feed 40))
       }
   where

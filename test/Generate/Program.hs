@@ -19,6 +19,7 @@ import Data.Set qualified as Set
 import Data.Text (Text)
 import Data.Text qualified as Text
 import Surface.FileUnit qualified as FileUnit
+import Surface.HoleForm qualified as HoleForm
 import Surface.Keyword qualified as Keyword
 import Surface.Lexer qualified as Lexer
 import Surface.Syntax hiding (statements)
@@ -128,6 +129,20 @@ softWords =
     "stop",
     "optional",
     "dwell",
+    "spot",
+    "ream",
+    "countersink",
+    "counterbore",
+    "bore",
+    "tap",
+    "thread",
+    "threadmill",
+    "pitch",
+    "angle",
+    "chip",
+    "break",
+    "hand",
+    "floating",
     "manual",
     "tip",
     "s",
@@ -184,6 +199,7 @@ statement n = at (frequency ([(1, s) | s <- simple] <> [(3, s) | n > 0, s <- dee
             <*> some' 2 (at joggle),
         Assert <$> expr (n + 1) <*> maybe' (expr n),
         Drill <$> expr n <*> expr n <*> some' 3 (setting n),
+        hole n,
         Travel <$> every <*> nonEmpty 3 (stop n),
         Change <$> expr n <*> cutter n <*> maybe' (expr n),
         Spindle
@@ -241,6 +257,14 @@ statement n = at (frequency ([(1, s) | s <- simple] <> [(3, s) | n > 0, s <- dee
           expr (n + 1)
         ]
 
+-- | A work on holes with the sizes of one of its forms.
+hole :: Int -> Gen Statement_
+hole n = do
+  work <- every
+  sizes <- elements (HoleForm.sizeForms work) >>= traverse (\s -> (s,) <$> expr n)
+  side <- if work == Threading then Just <$> at (elements [Inside, Outside]) else pure Nothing
+  (\points -> Hole work points sizes side) <$> expr n <*> some' 3 (setting n)
+
 machine :: Gen Text
 machine =
   oneof
@@ -253,7 +277,11 @@ cutter n =
   at
     ( oneof
         [ MillCutter <$> expr n <*> some' 3 (at (bodySize n)),
-          DrillCutter <$> expr n <*> some' 3 (at (bodySize n)),
+          DrillCutter
+            <$> expr n
+              <*> some' 3 (at (frequency [(3, bodySize n), (1, PointAngle <$> expr n)])),
+          TapCutter <$> expr n <*> some' 3 (at (bodySize n)),
+          ThreadMillCutter <$> expr n <*> expr n <*> some' 3 (at (bodySize n)),
           TurningCutter <$> expr n <*> maybe' (expr n),
           ConeCutter <$> expr n <*> expr n <*> expr n,
           BladeCutter <$> expr n <*> expr n
@@ -302,6 +330,11 @@ setting n =
       Peck <$> expr n,
       pure ShortestWay,
       Angle <$> expr n,
+      ChipBreak <$> expr n,
+      Pause <$> expr n,
+      TurnPitch <$> expr n,
+      Hand <$> elements [LeftSide, RightSide],
+      pure Floating,
       Islands <$> nonEmpty 3 (expr n),
       pure RestAllowed
     ]

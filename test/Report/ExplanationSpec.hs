@@ -110,7 +110,8 @@ raisedElsewhere =
         "E0739",
         "E0740",
         "E0741",
-        "E0742"
+        "E0742",
+        "E0750"
       ]
     ),
     ( "files and the command line",

@@ -250,7 +250,7 @@ withCoverage m fs =
     . cover 20 (any reversed (NonEmpty.toList (Machine.axes m))) "reversed axes"
     . cover 5 (not (null [() | Frame {motion = Circular _} <- fs])) "arcs"
     . cover 1 (not (null [() | Frame {motion = Circular _, increment = 0} <- fs])) "full circles"
-    . cover 3 (Machine.arcs m `elem` [Arcs True False False, Arcs True True False, Arcs True False True, Arcs True True True]) "quadrants"
+    . cover 3 (not (null [() | Arcs {Machine.quadrants = True} <- [Machine.arcs m]])) "quadrants"
     . cover 10 (not (null [() | Frame {motion = Rapid} <- fs])) "rapid moves"
     . cover 20 (not (all (null . commands) fs)) "commands"
     . cover 15 (any ((/= 0) . turn) fs) "turns"

@@ -12,7 +12,7 @@ syntax match partNumber /\<\d\+\(\.\d\+\)\?/
 syntax keyword partStatement part machine import tool feed tolerance clearance from let param table curve piece contour assert
 syntax keyword partStatement mill turn drill rapid move change spindle coolant aux with
 " Names as well, but for where a statement begins.
-syntax match partStatement /^\s*\zs\<\(pocket\|face\|work\|program\|safe\|stock\|avoid\|dwell\)\ze\s\+[(-]\?\k/
+syntax match partStatement /^\s*\zs\<\(pocket\|face\|work\|program\|safe\|stock\|avoid\|dwell\|spot\|ream\|countersink\|counterbore\|bore\|tap\|thread\)\ze\s\+[(-]\?\k/
 syntax match partStatement /^\s*\zs\<rest\s\+of\ze\s/
 syntax match partStatement /\(^\s*pocket\s.*\)\@<=\<as\ze\s/
 syntax match partStatement /^\s*\zs\<\(optional\s\+\)\?stop\ze\s*\(--.*\)\?$/
@@ -21,7 +21,7 @@ syntax match partStatement /\(^\s*spindle\s.*\)\@<=\<limit\>/
 syntax match partStatement /\(\<change\>.*)\s*\)\@<=at\>/
 syntax match partStatement /\(^\s*dwell\s.*\)\@<=\<s\ze\s*\(--.*\)\?$/
 syntax match partStatement /\(^\s*\(stock\|avoid\)\s.*\<from\>.*\)\@<=\<to\>/
-syntax match partCutter /\(,\s*\)\@<=\(flutes\|stickout\|holder\)\ze\s\+[(-]\?\k/
+syntax match partCutter /\(,\s*\)\@<=\(flutes\|stickout\|holder\|angle\|pitch\)\ze\s\+[(-]\?\k/
 syntax match partCutter /\(,\s*holder\s\([^,()]\|([^()]*)\)*\)\@<=\<height\ze\s/
 syntax match partCutter /\(\<turn(.*,\s*\)\@<=tip\>/
 syntax match partStatement /^\s*\zs\<units\ze\s\+\(mm\|in\)\>/
@@ -34,8 +34,13 @@ syntax keyword partLink meet near smooth tangent fillet chamfer slow bevel
 syntax keyword partPiece cipher joggle within first last
 syntax keyword partMilling outside inside left right on approach retract allowance
 " Words that may be names as well, where they begin a setting.
-syntax match partMilling /^\s*\zs\(depth\|lead\|corners\|climb\|conventional\|compensation\|start\|plunge\|peck\|shortest\|islands\|rest\|angle\|ramp\|helix\|spiral\|tabs\|tab\)\>/
+syntax match partMilling /^\s*\zs\(depth\|lead\|corners\|climb\|conventional\|compensation\|start\|plunge\|peck\|chip\|dwell\|pitch\|hand\|floating\|shortest\|islands\|rest\|angle\|ramp\|helix\|spiral\|tabs\|tab\)\>/
 syntax match partMilling /\(\<lead\s\+\)\@<=out\>/
+syntax match partMilling /\(\<chip\s\+\)\@<=break\>/
+" Words of the statements on holes.
+syntax match partStatement /\(^\s*\(spot\|ream\|countersink\|counterbore\|bore\|tap\|thread\)\s\+at\s.*\)\@<=\<\(depth\|pitch\|angle\)\>/
+syntax match partStatement /\(^\s*\(spot\|ream\|countersink\|counterbore\|bore\|tap\|thread\)\s\+\)\@<=at\>/
+syntax match partCutter /\<\(tap\|threadmill\)\ze(/
 syntax keyword partCutter cone blade diameter
 syntax keyword partFunction pi line true false polar intersection centre_of midpoint foot_of tangency point_on horizontal vertical
 syntax keyword partFunction parallel perpendicular circle concentric distance direction_of radius_of length_of x_of y_of spline

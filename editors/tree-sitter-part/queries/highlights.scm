@@ -14,6 +14,7 @@
   "let" "param" "table" "curve" "piece" "contour" "assert"
   "mill" "turn" "pocket" "face" "drill" "rapid" "move" "change" "spindle" "coolant" "aux" "with"
   "work" "program" "safe" "stock" "avoid" "stop" "optional" "dwell"
+  "spot" "ream" "countersink" "counterbore" "bore" "tap" "thread"
 ] @keyword
 
 ; Repetition and choice
@@ -36,8 +37,9 @@
   "compensation" "compiler" "controller" "start" "plunge" "ramp" "helix" "pitch" "tabs" "tab" "width"
   "peck" "islands" "rest" "allowed" "angle" "of" "as"
   "diameter" "nose" "cone" "blade" "height" "gear" "flutes" "stickout" "holder" "tip"
-  "manual" "limit" "s"
+  "manual" "limit" "s" "chip" "break" "pitch" "angle" "hand" "threadmill"
 ] @keyword
+(floating) @keyword
 (climb) @keyword
 (shortest) @keyword
 (spiral) @keyword

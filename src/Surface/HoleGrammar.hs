@@ -1,0 +1,76 @@
+{-# LANGUAGE RankNTypes #-}
+
+-- | The rules of the grammar for works on holes and for tools. They take the rule for expressions
+-- from "Surface.Grammar".
+module Surface.HoleGrammar
+  ( hole,
+    cutter,
+  )
+where
+
+import Data.Text (Text)
+import Surface.Combinator
+import Surface.HoleForm qualified as HoleForm
+import Surface.Syntax
+import Text.Megaparsec ((<?>), (<|>))
+import Text.Megaparsec qualified as Parsec
+
+-- | A work on holes after its keyword: the points, the sizes, the side of a thread, the settings.
+hole :: Parser Expr -> (Text -> Parser [Setting]) -> HoleWork -> Parser Statement_
+hole expr settings work =
+  keyword "at"
+    *> ( Hole work
+           <$> expr
+             <*> Parsec.choice (map (traverse size) (HoleForm.sizeForms work))
+             <*> side
+             <*> Parsec.option [] (onThisLine (settings (HoleForm.word work)))
+       )
+  where
+    size s = (s,) <$> (keyword (HoleForm.sizeWord s) *> expr)
+    side = case work of
+      Threading ->
+        Just <$> located ((Inside <$ keyword "inside") <|> (Outside <$ keyword "outside"))
+      _ -> pure Nothing
+
+-- | A cutter: @mill(diameter 20 mm)@, @drill(…)@, @tap(…)@, @threadmill(…)@, @turn(…)@, @cone(…)@,
+-- @blade(…)@.
+cutter :: Parser Expr -> Parser Cutter
+cutter expr =
+  located $
+    one "mill" MillCutter size
+      <|> one "drill" DrillCutter (size <|> (PointAngle <$> measured "angle"))
+      <|> one "tap" TapCutter size
+      <|> ( keyword "threadmill"
+              *> parens
+                ( ThreadMillCutter
+                    <$> measured "diameter"
+                      <*> further "pitch" threadForm
+                      <*> sizes size
+                )
+          )
+      <|> (keyword "turn" *> parens (TurningCutter <$> measured "nose" <*> Parsec.optional tip))
+      <|> ( keyword "cone"
+              *> parens
+                ( ConeCutter
+                    <$> measured "diameter"
+                      <*> further "bevel" coneForm
+                      <*> further "height" coneForm
+                )
+          )
+      <|> ( keyword "blade"
+              *> parens (BladeCutter <$> measured "diameter" <*> further "gear" bladeForm)
+          )
+  where
+    one kind make allowed =
+      keyword kind *> parens (make <$> measured "diameter" <*> sizes allowed)
+    sizes allowed = zeroOrMore (symbol "," *> located allowed)
+    size =
+      (Flutes <$> measured "flutes")
+        <|> (StickOut <$> measured "stickout")
+        <|> (HolderCylinder <$> measured "holder" <*> Parsec.optional (measured "height"))
+    measured measure = keyword measure *> expr
+    tip = symbol "," *> measured "tip"
+    further measure form = (symbol "," <?> form) *> measured measure
+    coneForm = "the rest of cone(diameter 20 mm, bevel 5 deg, height 30 mm)"
+    bladeForm = "the rest of blade(diameter 20 mm, gear 70 mm)"
+    threadForm = "the rest of threadmill(diameter 8 mm, pitch 1.5 mm)"
