@@ -16,6 +16,7 @@ import Base.Result (Result (..))
 import Checked.CallError qualified as CallError
 import Checked.Column qualified as Column
 import Checked.Contour (item)
+import Checked.Cutter (cutter)
 import Checked.Deferred (Deferred, resolveAll)
 import Checked.Dimension qualified as Dimension
 import Checked.Error (Error (..))
@@ -509,38 +510,6 @@ holeSize ::
   Infer (Surface.HoleSize, Deferred Checked.Expr)
 holeSize env (size, e) =
   (size,) <$> expect env (if size == Surface.HoleAngle then Type.angle else Type.len) e
-
-cutter :: TypingEnvironment -> Surface.Cutter -> Infer (Deferred Checked.Cutter)
-cutter env (Located at c) = fmap (Located at .) $ case c of
-  Surface.MillCutter e sizes -> sized Checked.MillCutter e sizes
-  Surface.DrillCutter e sizes -> sized Checked.DrillCutter e sizes
-  Surface.TapCutter e sizes -> sized Checked.TapCutter e sizes
-  Surface.ThreadMillCutter e pitch sizes ->
-    (\pitch' made sol -> made sol (pitch' sol))
-      <$> len pitch <*> sized (\e' sizes' p -> Checked.ThreadMillCutter e' p sizes') e sizes
-  Surface.TurningCutter e tip ->
-    (\e' tip' sol -> Checked.TurningCutter (e' sol) (($ sol) <$> tip'))
-      <$> len e <*> traverse (expect env Type.number) tip
-  Surface.ConeCutter d a h ->
-    (\d' a' h' sol -> Checked.ConeCutter (d' sol) (a' sol) (h' sol))
-      <$> len d <*> expect env Type.angle a <*> len h
-  Surface.BladeCutter d g ->
-    (\d' g' sol -> Checked.BladeCutter (d' sol) (g' sol)) <$> len d <*> len g
-  where
-    len = expect env Type.len
-    sized make e sizes =
-      (\e' sizes' sol -> make (e' sol) (map ($ sol) sizes'))
-        <$> len e <*> traverse (bodySize env) sizes
-
-bodySize :: TypingEnvironment -> Surface.BodySize -> Infer (Deferred Checked.BodySize)
-bodySize env (Located at s) = fmap (Located at .) $ case s of
-  Surface.Flutes e -> (Checked.Flutes .) <$> len e
-  Surface.StickOut e -> (Checked.StickOut .) <$> len e
-  Surface.PointAngle e -> (Checked.PointAngle .) <$> expect env Type.angle e
-  Surface.HolderCylinder d h ->
-    (\d' h' sol -> Checked.HolderCylinder (d' sol) (($ sol) <$> h')) <$> len d <*> traverse len h
-  where
-    len = expect env Type.len
 
 -- | Checks the heights of the bottom and of the top of a body.
 heights ::

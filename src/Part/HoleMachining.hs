@@ -69,7 +69,8 @@ holeWork context at work points (sizes, threadSide) settings = do
   pause <- traverse (secondsOf env) (Checked.pause settings)
   made <- traverse (madeBy context written) (cutter context)
   ps <- case v of
-    TableValue _ -> map (Expression.point . Expression.self) <$> Expression.turnsOf (region points) v
+    TableValue _ ->
+      map (Expression.point . Expression.self) <$> Expression.turnsOf (region points) v
     ListValue vs -> pure (map Expression.point (Vector.toList vs))
     _ -> pure [Expression.point v]
   Evaluation.spend at (length ps * maybe 1 turnsOf made)

@@ -109,9 +109,10 @@ pecks rule d (Hole (Located _ p) bottom) = go clear ends
                 <> go back more
     vertical = Stroke (Straight p p)
 
--- | The heights at which the pecks of a hole end, in order; @bottom@ is the height of its bottom. Without a rule all pecks have equal
--- depths, at most the depth that the program gives. If this would need more than 10000 pecks, there
--- are 10000 deeper ones. Without pecking the only height is that of the hole's bottom.
+-- | The heights at which the pecks of a hole end, in order; @bottom@ is the height of its bottom.
+-- Without a rule all pecks have equal depths, at most the depth that the program gives. If this
+-- would need more than 10000 pecks, there are 10000 deeper ones. Without pecking the only height is
+-- that of the hole's bottom.
 depthsOf :: Maybe PeckRule -> Drilling -> Mm -> [Mm]
 depthsOf rule d bottom = case (Part.peckDepth d, rule) of
   (Nothing, _) -> [bottom]

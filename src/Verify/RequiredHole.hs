@@ -84,7 +84,8 @@ movesAt machine d hole@(Part.Hole (Located _ p) bottom) = case Part.form d of
 -- deep as the statement allows, in whole pulses, the first one from the clearance height; the last
 -- one ends at the bottom. The drill returns as near as the cycle does.
 drilled :: Machine -> Drilling -> Hole -> [HoleMove]
-drilled machine d (Part.Hole (Located _ p) bottom) = concat (zipWith3 peck [1 :: Int ..] (clear : map above ends) ends)
+drilled machine d (Part.Hole (Located _ p) bottom) =
+  concat (zipWith3 peck [1 :: Int ..] (clear : map above ends) ends)
   where
     clear = Part.travelHeight d
     (ends, gap) = case (Part.peckDepth d, own) of
