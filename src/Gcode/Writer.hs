@@ -575,7 +575,9 @@ motionText Context {machine, form} end f = Text.unwords (motionWord : axisWords 
           component axis (increment f) /= 0 || isFullCircle && axis /= Z,
           word <- maybeToList (axisText machine form end axis)
       ]
-    isFullCircle = let Pulses3 x y _ = increment f in x == 0 && y == 0
+    isFullCircle = case (motion f, increment f) of
+      (Circular _, Pulses3 0 0 _) -> True
+      _ -> False
     centreWords = case motion f of
       Circular _ ->
         let Pulses2 i j = centre f
