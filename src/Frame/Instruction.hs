@@ -17,7 +17,7 @@ import Base.Region (Located (..), Region)
 import Data.List (mapAccumL, zipWith4)
 import Data.List.NonEmpty (NonEmpty (..))
 import Data.List.NonEmpty qualified as NonEmpty
-import Data.Maybe (fromMaybe, isNothing)
+import Data.Maybe (fromMaybe, isJust, isNothing)
 import Frame.ChordError (ChordTolerance (..))
 import Frame.ChordError qualified as ChordError
 import Frame.Command (Translation)
