@@ -47,7 +47,9 @@ formHint isStart around = case reverse onLine of
     shown example = "It is written: " <> example
     onLine = if isStart && isLineStart around then [] else map shape (lineTokens around)
     lineWords = [w | Word w <- onLine]
-    nearestSetting = mapMaybe (`lookup` settingForms) lineWords
+    -- The words before the brace are those of the statement.
+    nearestSetting =
+      mapMaybe (`lookup` settingForms) [w | Word w <- takeWhile (/= Symbol "{") onLine]
     cutterForm =
       listToMaybe
         [ form
@@ -104,7 +106,7 @@ settingTitle token expected around
     settingBefore =
       find
         Keyword.beginsItem
-        [word | t <- lineTokens around, Word word <- [shape t]]
+        [word | Word word <- takeWhile (/= Symbol "{") (map shape (lineTokens around))]
 
 -- | True if the expected words are those with which settings or elements begin.
 isItemStart :: [Text] -> Bool
