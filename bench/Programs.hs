@@ -45,6 +45,8 @@ data Kind
     Comb
   | -- | a square pocket with as many round islands
     Islands
+  | -- | the same, cleared by a larger cutter and then, where that left something, by a smaller one
+    Rests
   | -- | as many @mill@ statements of one spline contour
     OneContour
   | -- | as many spline contours, each around the one before, with a @mill@ statement for each
@@ -73,6 +75,7 @@ name kind = case kind of
   RoundPocket -> "round pocket"
   Comb -> "comb"
   Islands -> "islands"
+  Rests -> "islands, two cutters"
   OneContour -> "one contour"
   Nested -> "nested contours"
   Plate -> "plate with stock"
@@ -85,7 +88,7 @@ name kind = case kind of
 most :: Kind -> Int
 most kind
   | kind `elem` [Rows, Wavy, LinesFile] = 1000000
-  | kind `elem` [RoundPocket, Comb, Islands] = 10000
+  | kind `elem` [RoundPocket, Comb, Islands, Rests] = 10000
   | kind `elem` [OneContour, Nested, Plate, PlainPlate, Circles] = 64
   | otherwise = 100000
 
@@ -114,7 +117,8 @@ written kind n = case kind of
       [("rows.csv", Text.unlines ("x,y" : rows "," n 1 0.5))]
   RoundPocket -> Written (roundPocket n) []
   Comb -> Written (comb n) []
-  Islands -> Written (islands n) []
+  Islands -> Written (islands n "") []
+  Rests -> Written (islands n rest) []
   OneContour -> Written (mills (replicate n 0)) []
   Nested -> Written (mills [0 .. n - 1]) []
   Plate -> Written (plate True n) []
@@ -199,17 +203,21 @@ comb n =
   where
     slot k = [(4 * k + 1, -10), (4 * k + 1, -15), (4 * k + 3, -15), (4 * k + 3, -10)]
 
--- | A square pocket with @n@ round islands.
-islands :: Int -> Text
-islands n =
+-- | A square pocket with @n@ round islands, and further statements.
+islands :: Int -> Text -> Text
+islands n more =
   header "islands" 1 20
     <> "clearance 5 mm\ncontour c closed {\n"
     <> Text.unlines (map point [(0, 0), (3 * side, 0), (3 * side, 3 * side), (0, 3 * side)])
     <> "}\n"
     <> Text.unlines [island k (k `div` side) (k `mod` side) | k <- [0 .. n - 1]]
-    <> "pocket c step 0.8 { depth 1 mm  rest allowed  islands "
+    <> (if Text.null more then "" else "change 1 mill(diameter 2.2 mm)\n")
+    <> "pocket c step 0.8"
+    <> (if Text.null more then "" else " as rough")
+    <> " { depth 1 mm  rest allowed  islands "
     <> Text.intercalate ", " ["i" <> Decimal.whole k | k <- [0 .. n - 1]]
     <> " }\n"
+    <> more
   where
     side = ceiling (sqrt (fromIntegral n :: Double)) :: Int
     island k row column =
@@ -218,6 +226,10 @@ islands n =
           coordinate (3 * fromIntegral column + 1.5) <> ", ",
           coordinate (3 * fromIntegral row + 1.5) <> "), 0.5) }"
         ]
+
+-- | The clearing of what is left in the pocket of 'islands' by a smaller cutter.
+rest :: Text
+rest = "change 2 mill(diameter 0.8 mm)\nrest of rough step 0.3 { rest allowed }\n"
 
 -- | A @mill@ statement for each number k of the list: of the spline contour through 100 rows at
 -- about @100 + 10·k@ mm from the origin.

@@ -164,21 +164,19 @@ pocketOf clearings@(Clearing _ (Located statement pocketing) _ _ :| _) =
     rim = rimAt rimDistance
     wholeRimAt distance = rimOf side distance walls contours
     roughed = roughedFloor wholeRimAt <$> Part.roughing pocketing
-    rimAt distance = case roughed of
-      Nothing -> wholeRimAt distance
-      Just floor'
-        | distance >= roughRimDistance floor' -> []
-        | otherwise ->
-          concatMap (uncleared (Part.radius milling) floor') (wholeRimAt distance)
-    passes = fmap passOf clearings
-    passOf (Clearing passIndex _ pass linkingMoves) =
-      ClearingPass
-        { passIndex,
-          level = Toolpath.atHeight pass,
-          reach = Requirement.centreDistance milling (Toolpath.left pass),
-          isFinal = Toolpath.left pass == lastAllowance,
-          linkingMoves
-        }
+    rimAt = uncleared (Part.radius milling) roughed wholeRimAt
+    passes = fmap (clearingPass milling) clearings
+
+-- | Pass of a pocket whose wall has the given milling.
+clearingPass :: Milling -> Clearing -> ClearingPass
+clearingPass milling (Clearing passIndex _ pass linkingMoves) =
+  ClearingPass
+    { passIndex,
+      level = Toolpath.atHeight pass,
+      reach = Requirement.centreDistance milling (Toolpath.left pass),
+      isFinal = Toolpath.left pass == NonEmpty.last (Part.allowances milling),
+      linkingMoves
+    }
 
 -- | Pocket with the rim of one of its passes in place of that of the final pass.
 withRimOf :: ClearingPass -> Pocket -> Pocket
@@ -232,16 +230,26 @@ roughedFloor rimAt' roughing =
     roughRimDistance =
       plus (plus (Part.roughRadius roughing) (Part.roughAllowance roughing)) spareRoom
 
--- | Parts of a segment of the rim at which a cutter of the radius @r@ covers a point that a larger
--- cutter has not cleared. The rim is nearer to the walls than the positions of that cutter.
-uncleared :: Mm -> RoughedFloor -> (Element, Segment) -> [(Element, Segment)]
-uncleared r floor' (e, s) =
-  [ (e, Segment.between a b s)
-    | (a, b) <- Distance.uncovered idle near s
-  ]
-  where
-    idle = minus (clearedReach floor') r
-    near = BoxTree.within (BoundingBox.inflate idle (BoundingBox.ofSegment s)) (roughRim floor')
+-- | Parts of a rim at which a cutter of the radius @r@ covers a point that a larger cutter has not
+-- cleared; all of the rim without such a cutter. @wholeRimAt@ gives the rim at a distance from the
+-- walls.
+uncleared ::
+  Mm ->
+  Maybe RoughedFloor ->
+  (Mm -> [(Element, Segment)]) ->
+  Mm ->
+  [(Element, Segment)]
+uncleared r roughed wholeRimAt distance = case roughed of
+  Nothing -> wholeRimAt distance
+  Just floor'
+    | distance >= roughRimDistance floor' -> []
+    | otherwise ->
+      [ (e, Segment.between a b s)
+        | let idle = minus (clearedReach floor') r,
+          (e, s) <- wholeRimAt distance,
+          let box = BoundingBox.inflate idle (BoundingBox.ofSegment s),
+          (a, b) <- Distance.uncovered idle (BoxTree.within box (roughRim floor')) s
+      ]
 
 -- | Extra distance of the rim from the walls. The proof demands a cut between two walls only if
 -- their distance exceeds the cutter's width by twice this length. In a narrower passage the cutter

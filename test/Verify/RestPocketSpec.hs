@@ -5,8 +5,10 @@ import Base.Quantity (LengthUnit (..), Mm (..), minus, plus, times)
 import Base.Region (Located (..), Region (Region))
 import Base.Result (Result (..))
 import Base.Result qualified as Result
+import CaseCount (askedCount)
 import Data.List.NonEmpty (NonEmpty (..))
 import Data.List.NonEmpty qualified as NonEmpty
+import Data.Maybe (fromMaybe)
 import Frame.Frame (Frame, FrameProgram)
 import Frame.Frame qualified as Frame
 import Frame.FromToolpath qualified as FromToolpath
@@ -25,6 +27,9 @@ import Machine.Machine (Machine)
 import Machines qualified
 import Part.Part (Operation (Command), Part (..), Pocketing, SpacePoint (..))
 import Part.Part qualified as Part
+import System.Directory (findExecutable)
+import System.Exit (ExitCode (ExitSuccess))
+import System.Process (readProcessWithExitCode)
 import Test.Hspec
 import Test.Hspec.QuickCheck (modifyMaxSuccess, prop)
 import Test.QuickCheck
@@ -38,6 +43,15 @@ import Verify.Proof qualified as Proof
 
 spec :: Spec
 spec = modifyMaxSuccess (const 60) $ do
+  cases <- runIO (fromMaybe 18 <$> askedCount "PARTC_RESTS")
+  it "a judge of the G-code finds rests cleared and regions faced (catches a proof of nothing)" $ do
+    program <- findExecutable "partc" >>= maybe (fail "partc is not on the path") pure
+    (code, out, _) <-
+      readProcessWithExitCode
+        "/usr/bin/python3"
+        ["-B", "test/rests/rests.py", program, show cases, "1"]
+        ""
+    if code == ExitSuccess then pure () else expectationFailure out
   prop
     "random pockets with two cutters are proven (catches a rest that is demanded where none is)"
     $ forAll ((,) <$> pair <*> elements machines) $ \(two, m) ->
