@@ -12,9 +12,10 @@ where
 
 import Base.Quantity (Mm (..), plus)
 import Base.Region (Located (..))
+import Data.Bifunctor (bimap)
 import Data.List.NonEmpty (NonEmpty (..))
 import Data.List.NonEmpty qualified as NonEmpty
-import Data.Maybe (isJust)
+import Data.Maybe (isNothing)
 import Data.Vector (Vector)
 import Data.Vector qualified as Vector
 import Geometry.Carrier qualified as Carrier
@@ -58,12 +59,11 @@ paths (Located region milling) side numbered allowance = case side of
       (_, []) -> Left (refusal obstacle)
       (p : ps, rests) -> Right (fmap Equidistant.pieces (p :| ps), rests)
     (Left obstacle, Part.Refused)
-      | null breaks || isJust (Part.controlCompensation milling) -> Left (refusal obstacle)
+      | not (mayLeaveAtBreaks milling) -> Left (refusal obstacle)
       | otherwise -> case Equidistant.reachableFitting style s r polyarc of
         ([], _) -> Left (refusal obstacle)
-        (p : ps, rests) -> case restsAtBreaks milling r breaks rests of
-          Left other -> Left (refusal (Equidistant.stop other))
-          Right listed -> Right (fmap Equidistant.pieces (p :| ps), listed)
+        (p : ps, rests) ->
+          bimap refusal (fmap Equidistant.pieces (p :| ps),) (restsAtBreaks milling r rests)
   where
     polyarc = Part.polyarcOf (contour milling)
     r = plus (radius milling) allowance
@@ -78,21 +78,26 @@ paths (Located region milling) side numbered allowance = case side of
       | otherwise = allowanceOf . (numbered Vector.!)
     hasNoAllowances = all ((== Mm 0) . allowanceOf) numbered
     allowanceOf = Part.allowance . Part.finish
-    breaks = Break.breaksOf (contour milling)
     refusal = OffsetRefusal.refusal region (RestMaterial.toolOf milling allowance) numbered
 
 -- | The unreached parts of a contour that are listed, if all of them are at breaks of the contour:
--- those at which more material stays than the tolerance allows. Otherwise the first part that is
--- not at a break. @distance@ is that of the cutter's centre from the contour.
+-- those at which more material stays than the tolerance allows. Otherwise the obstacle of the first
+-- part that is not at a break. @distance@ is that of the cutter's centre from the contour.
 restsAtBreaks ::
   Milling ->
   Mm ->
-  [Break.Break] ->
   [Equidistant.UnreachedPart] ->
-  Either Equidistant.UnreachedPart [Equidistant.UnreachedPart]
-restsAtBreaks milling distance breaks rests = concat <$> traverse listed rests
+  Either Equidistant.Obstacle [Equidistant.UnreachedPart]
+restsAtBreaks milling distance rests = concat <$> traverse listed rests
   where
     listed rest = case Break.isLeftAt distance breaks (Equidistant.cutterCentre rest) of
-      Nothing -> Left rest
+      Nothing -> Left (Equidistant.stop rest)
       Just b -> Right [rest | Break.leftMaterial distance b > tolerated]
+    breaks = Break.breaksOf (contour milling)
     (_, tolerated) = Part.deviationLimits (Part.tolerance milling)
+
+-- | True if a contour has breaks at which the cutter may leave material. It may not if the control
+-- does the cutter compensation.
+mayLeaveAtBreaks :: Milling -> Bool
+mayLeaveAtBreaks milling =
+  isNothing (Part.controlCompensation milling) && not (null (Break.breaksOf (contour milling)))
