@@ -197,13 +197,11 @@ statement env (Located at s) = case s of
       o <- Settings.check env "drill" options
       pure (\sol -> Checked.Drill (points' sol) (depth' sol) (o sol))
   Surface.Hole work points sizes side options ->
-    one $
-      ( \points' sizes' o sol ->
-          Checked.Hole work (points' sol) (fmap (fmap ($ sol)) sizes') side (o sol)
-      )
-        <$> (snd <$> pointOrPoints env points)
-          <*> traverse (holeSize env) sizes
-          <*> Settings.check env (HoleForm.word work) options
+    one $ do
+      (columns, points') <- pointOrPoints env points
+      sizes' <- traverse (holeSize env work columns) sizes
+      o <- Settings.check env (HoleForm.word work) options
+      pure (\sol -> Checked.Hole work (points' sol) (fmap (fmap ($ sol)) sizes') side (o sol))
   Surface.Travel motion stops ->
     one $
       (\ps sol -> Checked.Travel (fmap ($ sol) ps))
@@ -503,13 +501,19 @@ atPace motion s = case (motion, Surface.pace s) of
   (Surface.RapidMotion, Surface.Cutting) -> s {Surface.pace = Surface.Rapid}
   _ -> s
 
--- | Checks a size of a hole.
+-- | Checks a size of a hole. The depth may name the columns of the table of points, and so may the
+-- diameter of a mouth that is made by a pointed tool.
 holeSize ::
   TypingEnvironment ->
+  Surface.HoleWork ->
+  [(Located Text, Type)] ->
   (Surface.HoleSize, Surface.Expr) ->
   Infer (Surface.HoleSize, Deferred Checked.Expr)
-holeSize env (size, e) =
-  (size,) <$> expect env (if size == Surface.HoleAngle then Type.angle else Type.len) e
+holeSize env work columns (size, e) =
+  (size,) <$> Column.inScope visible (expect env sizeType e)
+  where
+    sizeType = if size == Surface.HoleAngle then Type.angle else Type.len
+    visible = if HoleForm.isByRow work size then columns else []
 
 -- | Checks the heights of the bottom and of the top of a body.
 heights ::

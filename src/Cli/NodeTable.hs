@@ -278,11 +278,11 @@ holeTable unit drillings =
         ( ["x", "y", "diameter", "depth"] :
             [ [ fixed3 unit (Mm (Vec.x p)),
                 fixed3 unit (Mm (Vec.y p)),
-                fixed3 unit (times 2 (Part.mouthRadius d)),
+                fixed3 unit (times 2 mouth),
                 fixed3 unit (times (-1) bottom)
               ]
               | (begin, d) <- drillings,
-                Part.Hole (Located _ p) bottom <- NonEmpty.toList (HoleOrder.ordered begin d)
+                Part.Hole (Located _ p) bottom mouth <- NonEmpty.toList (HoleOrder.ordered begin d)
             ]
         )
     | not (null drillings)
@@ -306,7 +306,7 @@ holeOrderTable unit drillings =
           let listed = centres (Part.holes d)
               short = centres (HoleOrder.ordered begin d)
       ]
-    centres holes = [p | Part.Hole (Located _ p) _ <- NonEmpty.toList holes]
+    centres holes = [p | Part.Hole (Located _ p) _ _ <- NonEmpty.toList holes]
     row (count, before, after) =
       [ Decimal.whole count,
         fixed3 unit before,

@@ -247,7 +247,7 @@ holesOf operation = case operation of
   Mill _ -> []
   Pocket _ -> []
   Drill (Located _ d) ->
-    [Circle p (Part.mouthRadius d) | Part.Hole (Located _ p) _ <- NonEmpty.toList (Part.holes d)]
+    [Circle p r | Part.Hole (Located _ p) _ r <- NonEmpty.toList (Part.holes d)]
   Travel _ -> []
   Command _ -> []
 
@@ -312,8 +312,8 @@ cutterBox :: Block -> [BoundingBox]
 cutterBox block = case block of
   Travelling {} -> []
   Holing (Located _ d) _ ->
-    [ BoundingBox.inflate (Part.mouthRadius d) (BoundingBox.ofPoints p [])
-      | Part.Hole (Located _ p) _ <- NonEmpty.toList (Part.holes d)
+    [ BoundingBox.inflate r (BoundingBox.ofPoints p [])
+      | Part.Hole (Located _ p) _ r <- NonEmpty.toList (Part.holes d)
     ]
   Commanding _ -> []
   Cutting {job = Located _ milling, cut} -> sweptBy milling (NonEmpty.toList cut)

@@ -170,13 +170,15 @@ ofBlock machine blockNumber n walls b = case b of
 -- between it and the next move of the statement. The chords of circles keep the smaller limit of
 -- the tolerance.
 holing :: Machine -> Int -> Located Drilling -> Maybe Move -> Move -> [Instruction]
-holing machine n (Located region d) following m =
-  Run (Drilling n) (Sagitta limit) (Part.drillRadius d) 0 AsProgrammed (m :| []) :
-    [ Words region (Command.translated machine (Located region c))
-      | isJust following,
-        c <- DrillMove.commandsAfter d m
-    ]
+holing machine n (Located region d) = run
   where
+    run following m =
+      Run (Drilling n) (Sagitta limit) (Part.drillRadius d) 0 AsProgrammed (m :| []) :
+        [ Words region (Command.translated machine (Located region c))
+          | isJust following,
+            c <- commandsAfter m
+        ]
+    commandsAfter = DrillMove.commandsAfter d
     limit = maybe (Mm 0) (uncurry min . Part.deviationLimits . snd) (Part.runsOf d)
 
 -- | Runs outside of milling, one for each move, with the cutter's radius in mm, and with the tool

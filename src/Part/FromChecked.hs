@@ -230,7 +230,7 @@ step state (Located at s) = case s of
   Checked.Turn e side settings ->
     keep (Machining.milling now Turned at e side settings) (eachPerformed Mill)
   Checked.Drill points depth settings ->
-    keep (Machining.drilling now at points depth settings) (performed Drill)
+    keep (HoleMachining.drilling now at points depth settings) (performed Drill)
   Checked.Hole work points sizes side settings ->
     keep (HoleMachining.holeWork now at work points (sizes, side) settings) (performed Drill)
   Checked.Travel stops ->

@@ -1,15 +1,17 @@
--- | Evaluates the works on holes other than drilling: spotting, reaming, countersinking,
--- counterboring, boring, tapping and threading.
+-- | Evaluates the works on holes: drilling, spotting, reaming, countersinking, counterboring,
+-- boring, tapping and threading.
 --
 -- A point of a tool with the angle A makes at the depth d below the top of the part a circle of the
 -- radius r + d · tan(A\/2), where r is the radius of its tip: 0 for a drill.
 module Part.HoleMachining
-  ( holeWork,
+  ( drilling,
+    holeWork,
     internalCore,
   )
 where
 
 import Base.Crash (bug)
+import Base.NumberTable qualified as NumberTable
 import Base.Quantity (Mm (..), Rad (..), minus, over, plus, times)
 import Base.Region (Located (..), Region (..))
 import Base.Region qualified as Region
@@ -18,16 +20,18 @@ import Checked.Syntax qualified as Checked
 import Control.Applicative ((<|>))
 import Control.Monad (when)
 import Data.List.NonEmpty qualified as NonEmpty
-import Data.Maybe (fromMaybe)
+import Data.Maybe (fromMaybe, isNothing)
 import Data.Text qualified as Text
 import Data.Vector qualified as Vector
 import Geometry.Carrier qualified as Carrier
 import Geometry.Tolerance qualified as Tolerance
+import Part.Curve qualified as Curve
 import Part.CutFeed (CutFeed (..), SpindleRate (..))
 import Part.CutterBody qualified as CutterBody
 import Part.Error (CutterStatement (..), ValueFact (..))
 import Part.Evaluation (Eval)
 import Part.Evaluation qualified as Evaluation
+import Part.Expression (Environment)
 import Part.Expression qualified as Expression
 import Part.HoleError (HoleMistake (..), TapMistake (..), ThreadMistake (..))
 import Part.Machining (Context (..), checkCutter)
@@ -35,8 +39,104 @@ import Part.Measure (feedOf, lengthOf, secondsOf)
 import Part.Parameter (Range (UpTo))
 import Part.Parameter qualified as Parameter
 import Part.Part
+import Part.Piece qualified as Piece
 import Part.Value (Value (..))
 import Surface.HoleForm qualified as HoleForm
+
+-- | Evaluates the drilling of one hole or several holes. @at@ is the region of the statement, and
+-- @points@ is the expression of the point, the list of points or the table. With a table the depth
+-- may name columns.
+drilling ::
+  Context ->
+  Region ->
+  Expr ->
+  Expr ->
+  Checked.Settings ->
+  Eval (Maybe Drilling)
+drilling context at points depth settings = do
+  v <- Expression.evaluate env points
+  checkCutter context at DrillStatement
+  let radius' = maybe (Mm 0) cutterRadius (cutter context)
+  found <- holesOf env points v [depth] (\row -> (,radius') <$> depthOf row depth)
+  peckDepth <- traverse (lengthOf env Parameter.PeckDepth) (Checked.peck settings)
+  plunge <- traverse (feedOf env) (Checked.plunge settings)
+  chipRise <- chipRiseOf env settings
+  bottomPause <- traverse (secondsOf env) (Checked.pause settings)
+  let pecksOf h = maybe 1 (pecksIn (holeBottom h)) peckDepth
+      most = maximum (0 : map pecksOf found)
+  when
+    (most > 1000)
+    ( Evaluation.mistake
+        (NotWhole (region depth) Parameter.PeckCount (UpTo 1000) (fromIntegral most))
+    )
+  checkOrdered points settings (length found)
+  Evaluation.spend at (sum (map pecksOf found))
+  case NonEmpty.nonEmpty found of
+    Nothing -> Evaluation.mistake (NothingToDrill (region points))
+    Just some -> pure $ do
+      tool <- cutter context
+      drillFeed <- plunge <|> modalFeed context
+      travelHeight <- clearanceHeight context
+      Just
+        Drilling
+          { holes = some,
+            visits = Checked.visits settings,
+            drillRadius = cutterRadius tool,
+            drillSize = cutterSize tool,
+            travelHeight,
+            peckDepth,
+            chipRise,
+            bottomPause,
+            form = Plunged,
+            drillFeed
+          }
+  where
+    env = environment context
+    pecksIn :: Mm -> Mm -> Int
+    pecksIn bottom p = ceiling (min 1e9 (-(over bottom p)) - Tolerance.equal)
+
+-- | Evaluates the rise of a drill after a peck. Fails if there is a chip break without pecks.
+chipRiseOf :: Environment -> Checked.Settings -> Eval (Maybe Mm)
+chipRiseOf env settings = case Checked.chipBreak settings of
+  Just (Located setting _)
+    | isNothing (Checked.peck settings) ->
+      Evaluation.mistake (InHole (BreakWithoutPeck setting))
+  given -> traverse (lengthOf env Parameter.ChipRise . value) given
+
+-- | The names by which a size of a hole is evaluated: those at the statement, or with them the
+-- columns of a row of a table.
+data RowScope = RowScope
+  { rowNames :: Environment,
+    -- | the expression of a size, at the place at which a mistake points: the row
+    rowPlace :: Expr -> Expr,
+    -- | the name of the depth in reports
+    rowDepth :: Parameter.LimitedQuantity
+  }
+
+depthOf :: RowScope -> Expr -> Eval Mm
+depthOf row e = lengthOf (rowNames row) (rowDepth row) (rowPlace row e)
+
+-- | The holes at the value @v@ of the expression @points@. @measure@ gives the depth and the radius
+-- at the top. If the expressions of the sizes name columns of a table, it is evaluated in each row,
+-- and a mistake points at the row.
+holesOf :: Environment -> Expr -> Value -> [Expr] -> (RowScope -> Eval (Mm, Mm)) -> Eval [Hole]
+holesOf env points v sizes measure = case v of
+  TableValue t -> do
+    turns <- Expression.turnsOf (region points) v
+    if any (Piece.mentions (Curve.names t)) sizes
+      then Evaluation.gather (zipWith (inRow t) [0 ..] turns)
+      else alike (map pointIn turns)
+  ListValue vs -> alike (map Expression.point (Vector.toList vs))
+  _ -> alike [Expression.point v]
+  where
+    alike ps = (\size -> map (`hole` size) ps) <$> measure (RowScope env id Parameter.Depth)
+    inRow t k turn =
+      hole (pointIn turn) <$> measure (RowScope (inTurn turn) (atRow t k) Parameter.HoleDepth)
+    inTurn turn = Expression.withColumns (Expression.columns turn) env
+    atRow t k e = e {region = NumberTable.regionOf (Curve.rows t) k}
+    pointIn = Expression.point . Expression.self
+    hole p (d, r) =
+      Hole {holeCentre = Located (region points) p, holeBottom = times (-1) d, holeMouth = r}
 
 -- | A work on holes as the program writes it: the work, the points, the sizes, the side of a
 -- thread, and the settings.
@@ -49,11 +149,8 @@ data Written = Written
     keyword :: Region
   }
 
--- | Sizes and moves of the holes, which all of them share.
-data Made = Made {deep :: Mm, mouth :: Mm, moves :: HoleForm}
-
 -- | Evaluates a work on one hole or several holes. @at@ is the region of the statement, and
--- @points@ is the expression of the point or the list of points.
+-- @points@ is the expression of the point, the list of points or the table.
 holeWork ::
   Context ->
   Region ->
@@ -67,26 +164,22 @@ holeWork context at work points (sizes, threadSide) settings = do
   checkCutter context at (HoleStatement work)
   plunge <- traverse (feedOf env) (Checked.plunge settings)
   pause <- traverse (secondsOf env) (Checked.pause settings)
-  made <- traverse (madeBy context written) (cutter context)
-  ps <- case v of
-    TableValue _ ->
-      map (Expression.point . Expression.self) <$> Expression.turnsOf (region points) v
-    ListValue vs -> pure (map Expression.point (Vector.toList vs))
-    _ -> pure [Expression.point v]
-  Evaluation.spend at (length ps * maybe 1 turnsOf made)
-  case NonEmpty.nonEmpty ps of
-    Nothing -> Evaluation.mistake (NothingToDrill (region points))
-    Just some -> pure $ do
+  made <- traverse (madeBy context written (points, v)) (cutter context)
+  checkOrdered points settings (maybe 0 (length . fst) made)
+  Evaluation.spend at (maybe 0 (\(found, m) -> sum (map (turnsOf m) found)) made)
+  if isEmpty v || maybe False (null . fst) made
+    then Evaluation.mistake (NothingToDrill (region points))
+    else pure $ do
       tool <- cutter context
-      Made {deep, mouth, moves} <- made
+      (found, moves) <- made
+      holes <- NonEmpty.nonEmpty found
       travelHeight <- clearanceHeight context
       drillFeed <- feedInto moves <|> plunge <|> modalFeed context
       Just
         Drilling
-          { holes = fmap (\p -> Hole (Located (region points) p) (times (-1) deep)) some,
+          { holes,
             visits = Checked.visits settings,
             drillRadius = cutterRadius tool,
-            mouthRadius = mouth,
             drillSize = cutterSize tool,
             travelHeight,
             peckDepth = Nothing,
@@ -102,30 +195,39 @@ holeWork context at work points (sizes, threadSide) settings = do
     feedInto m = case m of
       Tapped t -> Just (Located keyword (PerTurn (tapPitch t) NoRate))
       _ -> Nothing
+    isEmpty v = case v of
+      ListValue vs -> Vector.null vs
+      _ -> False
+
+-- | Fails if a statement orders more holes than the search for a short way takes.
+checkOrdered :: Expr -> Checked.Settings -> Int -> Eval ()
+checkOrdered points settings count =
+  when
+    (Checked.visits settings == Shortest && count > 10000)
+    ( Evaluation.mistake
+        (NotWhole (region points) Parameter.OrderedHoleCount (UpTo 10000) (fromIntegral count))
+    )
 
 -- | The number of turns of the helix of a hole; 1 without a helix.
-turnsOf :: Made -> Int
-turnsOf Made {deep, moves} = case moves of
+turnsOf :: HoleForm -> Hole -> Int
+turnsOf moves hole = case moves of
   Bored c -> turns (turnDepth c)
   Threaded h -> turns (pitch h)
   Plunged -> 1
   Reamed -> 1
   Tapped _ -> 1
   where
-    turns step = max 1 (ceiling (over deep step))
+    turns step = max 1 (ceiling (over (times (-1) (holeBottom hole)) step))
 
--- | The sizes and the moves of the holes that a tool makes.
-madeBy :: Context -> Written -> Cutter -> Eval Made
-madeBy context w tool = case asked w of
-  Spotting
-    | Just e <- lookup HoleDiameter (sizes w) -> do
-      d <- lengthOf env Parameter.HoleDiameter e
-      plunged <$> depthOfMouth tool (region e) d <*> pure (times 0.5 d)
-    | otherwise -> do
-      d <- depth
-      let r = tipOf tool + wide d * tan (angle / 2)
-      pure (plunged d (min (cutterRadius tool) (Mm r)))
-  Reaming -> (\d -> Made {deep = d, mouth = cutterRadius tool, moves = Reamed}) <$> depth
+-- | The holes that a tool makes, and the moves by which it makes each of them.
+madeBy :: Context -> Written -> (Expr, Value) -> Cutter -> Eval ([Hole], HoleForm)
+madeBy context w points tool = case asked w of
+  Spotting -> do
+    found <- case lookup HoleDiameter (sizes w) of
+      Just e -> holes [e] (mouthIn e)
+      Nothing -> holes [depth] (fmap (\d -> (d, min (cutterRadius tool) (widthAt d))) . depthIn)
+    pure (found, Plunged)
+  Reaming -> (,Reamed) <$> holes [depth] (alike (cutterRadius tool))
   Countersinking -> do
     let e = sizeOf w HoleAngle
     Rad asked <- Rad . Expression.number <$> Expression.evaluate env e
@@ -133,28 +235,41 @@ madeBy context w tool = case asked w of
       (abs (asked - angle) > 1.0e-4)
       (mistake (OtherAngle (region e) (Rad asked) (Rad angle)))
     let across = sizeOf w HoleDiameter
-    d <- lengthOf env Parameter.HoleDiameter across
-    plunged <$> depthOfMouth tool (region across) d <*> pure (times 0.5 d)
+    (,Plunged) <$> holes [across] (mouthIn across)
   Counterboring -> do
-    d <- depth
     turn <- traverse (lengthOf env Parameter.ThreadPitch) (Checked.turnPitch (settings w))
-    bored context w tool True d (fromMaybe (times 0.2 (cutterRadius tool)) turn)
+    circled True (fromMaybe (times 0.2 (cutterRadius tool)) turn)
   Boring -> do
-    d <- depth
     turn <- lengthOf env Parameter.ThreadPitch (sizeOf w HolePitch)
-    bored context w tool False d turn
+    circled False turn
   Tapping -> do
-    d <- depth
+    found <- holes [depth] (alike (cutterRadius tool))
     pitch <- lengthOf env Parameter.ThreadPitch (sizeOf w HolePitch)
-    tapping <- tapped context w pitch
-    pure Made {deep = d, mouth = cutterRadius tool, moves = Tapped tapping}
-  Threading -> threaded context w tool =<< depth
+    (,) found . Tapped <$> tapped context w pitch
+  Threading -> do
+    d <- lengthOf env Parameter.HoleDiameter (sizeOf w HoleDiameter)
+    found <- holes [depth] (alike (times 0.5 d))
+    (,) found . Threaded <$> threaded context w tool d (deepest found)
   where
     env = environment context
-    depth = lengthOf env Parameter.Depth (sizeOf w HoleDepth)
-    plunged d r = Made {deep = d, mouth = r, moves = Plunged}
+    holes = uncurry (holesOf env) points
+    depth = sizeOf w HoleDepth
+    depthIn :: RowScope -> Eval Mm
+    depthIn row = depthOf row depth
+    alike r = fmap (,r) . depthIn
+    mouthIn e row = do
+      d <- lengthOf (rowNames row) Parameter.HoleDiameter (rowPlace row e)
+      (,times 0.5 d) <$> depthOfMouth tool (region (rowPlace row e)) d
     angle = CutterBody.pointOf tool
-    wide (Mm d) = d
+    widthAt (Mm d) = Mm (tipOf tool + d * tan (angle / 2))
+    circled clearsFloor turn = do
+      d <- lengthOf env Parameter.HoleDiameter (sizeOf w HoleDiameter)
+      found <- holes [depth] (alike (times 0.5 d))
+      (,) found <$> bored context w tool clearsFloor (d, deepest found) turn
+
+-- | The depth of the deepest hole.
+deepest :: [Hole] -> Mm
+deepest = foldr (max . times (-1) . holeBottom) (Mm 0)
 
 -- | A size that the grammar demands.
 sizeOf :: Written -> HoleSize -> Expr
@@ -176,11 +291,10 @@ tipOf tool = case kind tool of
   ConeCutter -> let Mm r = tipRadius tool in r
   _ -> 0
 
--- | The milling of a cylinder to the depth @deep@, with turns of at most @turn@. A mill of exactly
--- its diameter goes straight down.
-bored :: Context -> Written -> Cutter -> Bool -> Mm -> Mm -> Eval Made
-bored context w tool clearsFloor deep turn = do
-  d <- lengthOf (environment context) Parameter.HoleDiameter across
+-- | The milling of cylinders with the diameter @d@, the deepest one down to @deep@, with turns of
+-- at most @turn@. A mill of exactly their diameter goes straight down.
+bored :: Context -> Written -> Cutter -> Bool -> (Mm, Mm) -> Mm -> Eval HoleForm
+bored context w tool clearsFloor (d, deep) turn = do
   let r = times 0.5 d
       wider = minus r (cutterRadius tool)
       isPlunged = clearsFloor && abs' wider <= Tolerance.coincident
@@ -191,7 +305,7 @@ bored context w tool clearsFloor deep turn = do
   when (turns > 10000) . Evaluation.mistake $
     NotWhole (region across) Parameter.TurnCount (UpTo 10000) (fromIntegral (round turns :: Int))
   (circleFeed, circleTolerance) <- runs context
-  pure . Made deep r $
+  pure $
     if isPlunged
       then Plunged
       else
@@ -244,14 +358,13 @@ tapped context w pitch = do
 isLeft :: Written -> Bool
 isLeft w = Checked.hand (settings w) == Just LeftSide
 
--- | The milling of a thread to the depth @deep@.
+-- | The milling of threads with the nominal diameter @d@, the deepest one down to @deep@.
 --
 -- The basic profile of ISO 68-1 has the height H = √3\/2 · P. Its inside thread reaches the nominal
 -- diameter D, and the core before it has D − 2 · 5\/8 · H. The teeth of an outside thread reach
 -- D − 2 · 17\/24 · H, with a rounded root.
-threaded :: Context -> Written -> Cutter -> Mm -> Eval Made
-threaded context w tool deep = do
-  d <- lengthOf env Parameter.HoleDiameter across
+threaded :: Context -> Written -> Cutter -> Mm -> Mm -> Eval ThreadHelix
+threaded context w tool d deep = do
   pitch <- lengthOf env Parameter.ThreadPitch along
   case kind tool of
     ThreadCutter own
@@ -268,17 +381,16 @@ threaded context w tool deep = do
   when (over deep pitch > 10000) . Evaluation.mistake $
     NotWhole (region along) Parameter.TurnCount (UpTo 10000) (fromIntegral turnCount)
   (helixFeed, helixTolerance) <- runs context
-  pure . Made deep mouth $
-    Threaded
-      ThreadHelix
-        { toothRadius = if isInside then mouth else root,
-          pitch,
-          isInside,
-          helixSense = sense,
-          rises = isLeft w /= (sense == Carrier.CounterClockwise),
-          helixFeed,
-          helixTolerance
-        }
+  pure
+    ThreadHelix
+      { toothRadius = if isInside then mouth else root,
+        pitch,
+        isInside,
+        helixSense = sense,
+        rises = isLeft w /= (sense == Carrier.CounterClockwise),
+        helixFeed,
+        helixTolerance
+      }
   where
     env = environment context
     across = sizeOf w HoleDiameter

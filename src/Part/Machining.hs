@@ -9,7 +9,6 @@ module Part.Machining
     millingOf,
     pocketing,
     checkPassCount,
-    drilling,
     stopsOf,
     spacePoint,
     checkCutter,
@@ -19,18 +18,16 @@ module Part.Machining
 where
 
 import Base.Crash (bug)
-import Base.NumberTable qualified as NumberTable
 import Base.Quantity (Mm (..), Rad (..), over, times)
 import Base.Region (Located (..), Region (..))
 import Base.Region qualified as Region
 import Checked.Syntax (Expr)
 import Checked.Syntax qualified as Checked
-import Control.Applicative ((<|>))
 import Control.Monad (when)
 import Data.List qualified as List
 import Data.List.NonEmpty (NonEmpty (..))
 import Data.List.NonEmpty qualified as NonEmpty
-import Data.Maybe (fromMaybe, isJust, isNothing)
+import Data.Maybe (fromMaybe, isJust)
 import Data.Vector qualified as Vector
 import Geometry.Segment qualified as Segment
 import Geometry.Tolerance qualified as Tolerance
@@ -38,7 +35,6 @@ import Geometry.WindingNumber qualified as WindingNumber
 import Part.Body qualified as Body
 import Part.ContourElement qualified as ContourElement
 import Part.ContourError (ContourFault (OpenBegins))
-import Part.Curve qualified as Curve
 import Part.CurveError (CurveMistake (SteepBevel))
 import Part.CutFeed (CutFeed, SpindleRate)
 import Part.Descent qualified as Descent
@@ -48,11 +44,10 @@ import Part.Evaluation qualified as Evaluation
 import Part.Expression (Environment)
 import Part.Expression qualified as Expression
 import Part.HoleError (HoleMistake (..), ThreadMistake (..))
-import Part.Measure (feedOf, lengthOf, notNegative, secondsOf, whole)
+import Part.Measure (feedOf, lengthOf, notNegative, whole)
 import Part.Parameter (Range (UpTo))
 import Part.Parameter qualified as Parameter
 import Part.Part
-import Part.Piece qualified as Piece
 import Part.PlaneRegion (PlaneRegion (..))
 import Part.PlaneRegion qualified as PlaneRegion
 import Part.PocketCheck qualified as PocketCheck
@@ -357,92 +352,6 @@ checkPassCount at count =
     (Evaluation.mistake (NotWhole at Parameter.PassCount (UpTo 10000) (fromIntegral rounded)))
   where
     rounded = ceiling (min 1e9 count) :: Int
-
--- Drilling
-
--- | Evaluates the drilling of one hole or several holes. @at@ is the region of the statement, and
--- @points@ is the expression of the point, the list of points or the table. With a table the depth
--- may name columns.
-drilling ::
-  Context ->
-  Region ->
-  Expr ->
-  Expr ->
-  Checked.Settings ->
-  Eval (Maybe Drilling)
-drilling context at points depth settings = do
-  v <- Expression.evaluate env points
-  checkCutter context at DrillStatement
-  found <- holesOf env points v depth
-  peckDepth <- traverse (lengthOf env Parameter.PeckDepth) (Checked.peck settings)
-  plunge <- traverse (feedOf env) (Checked.plunge settings)
-  chipRise <- chipRiseOf env settings
-  bottomPause <- traverse (secondsOf env) (Checked.pause settings)
-  let pecksOf h = maybe 1 (pecksIn (holeBottom h)) peckDepth
-      most = maximum (0 : map pecksOf found)
-  when
-    (most > 1000)
-    ( Evaluation.mistake
-        (NotWhole (region depth) Parameter.PeckCount (UpTo 1000) (fromIntegral most))
-    )
-  let ordered = if Checked.visits settings == Shortest then length found else 0
-  when
-    (ordered > 10000)
-    ( Evaluation.mistake
-        (NotWhole (region points) Parameter.OrderedHoleCount (UpTo 10000) (fromIntegral ordered))
-    )
-  Evaluation.spend at (sum (map pecksOf found))
-  case NonEmpty.nonEmpty found of
-    Nothing -> Evaluation.mistake (NothingToDrill (region points))
-    Just some -> pure $ do
-      tool <- cutter context
-      drillFeed <- plunge <|> modalFeed context
-      travelHeight <- clearanceHeight context
-      Just
-        Drilling
-          { holes = some,
-            visits = Checked.visits settings,
-            drillRadius = cutterRadius tool,
-            mouthRadius = cutterRadius tool,
-            drillSize = cutterSize tool,
-            travelHeight,
-            peckDepth,
-            chipRise,
-            bottomPause,
-            form = Plunged,
-            drillFeed
-          }
-  where
-    env = environment context
-    pecksIn :: Mm -> Mm -> Int
-    pecksIn bottom p = ceiling (min 1e9 (-(over bottom p)) - Tolerance.equal)
-
--- | The holes at the value @v@ of the expression @points@. Columns of a table may be named in the
--- expression @depth@. It is then evaluated in each row, and a mistake points at the row.
-holesOf :: Environment -> Expr -> Value -> Expr -> Eval [Hole]
-holesOf env points v depth = case v of
-  TableValue t -> do
-    turns <- Expression.turnsOf (region points) v
-    if Piece.mentions (Curve.names t) depth
-      then Evaluation.gather (zipWith (inRow t) [0 ..] turns)
-      else alike (map pointIn turns)
-  ListValue vs -> alike (map Expression.point (Vector.toList vs))
-  _ -> alike [Expression.point v]
-  where
-    alike ps = (\d -> map (`hole` d) ps) <$> lengthOf env Parameter.Depth depth
-    inRow t k turn = hole (pointIn turn) <$> lengthOf (inTurn turn) Parameter.HoleDepth (atRow t k)
-    inTurn turn = Expression.withColumns (Expression.columns turn) env
-    atRow t k = depth {region = NumberTable.regionOf (Curve.rows t) k}
-    pointIn = Expression.point . Expression.self
-    hole p d = Hole {holeCentre = Located (region points) p, holeBottom = times (-1) d}
-
--- | Evaluates the rise of a drill after a peck. Fails if there is a chip break without pecks.
-chipRiseOf :: Environment -> Checked.Settings -> Eval (Maybe Mm)
-chipRiseOf env settings = case Checked.chipBreak settings of
-  Just (Located setting _)
-    | isNothing (Checked.peck settings) ->
-      Evaluation.mistake (InHole (BreakWithoutPeck setting))
-  given -> traverse (lengthOf env Parameter.ChipRise . value) given
 
 -- Moves
 

@@ -426,18 +426,15 @@ deviationLimits accuracy = case accuracy of
 data Drilling = Drilling
   { -- | the holes in the order of the program
     holes :: NonEmpty Hole,
-    -- | the order in which they are drilled
+    -- | the order in which they are made
     visits :: VisitOrder,
     -- | the radius of the tool
     drillRadius :: Mm,
-    -- | the radius of the holes at the top of the part
-    mouthRadius :: Mm,
     -- | the region of the diameter of the drill
     drillSize :: Maybe Region,
     -- | the height at which the drill moves from hole to hole
     travelHeight :: Mm,
-    -- | the largest depth to drill before the drill is retracted; if it is absent, each hole is
-    -- drilled in one move
+    -- | the largest depth to drill before the drill is retracted; without it, each hole is one move
     peckDepth :: Maybe Mm,
     -- | the rise after each peck; if it is absent, the drill leaves the hole
     chipRise :: Maybe Mm,
@@ -449,8 +446,8 @@ data Drilling = Drilling
   }
   deriving stock (Eq, Show)
 
--- | A hole: its centre, and the height of its bottom, which is negative.
-data Hole = Hole {holeCentre :: Located Point, holeBottom :: Mm}
+-- | A hole: its centre, the height of its bottom (negative), and its radius at the top of the part.
+data Hole = Hole {holeCentre :: Located Point, holeBottom :: Mm, holeMouth :: Mm}
   deriving stock (Eq, Show)
 
 -- | The moves by which a hole is made.
@@ -491,8 +488,7 @@ data Circling = Circling
 
 -- | The milling of a thread in a helix.
 data ThreadHelix = ThreadHelix
-  { -- | the radius that the teeth of the cutter reach: the largest one of an inside thread, and the
-    -- smallest one of an outside thread
+  { -- | the radius that the teeth reach: the largest one inside, the smallest one outside
     toothRadius :: Mm,
     pitch :: Mm,
     isInside :: Bool,

@@ -204,11 +204,11 @@ sideName side = case side of
 holeNumbers :: Part.Operation -> [Double]
 holeNumbers operation = case operation of
   Part.Drill (Located _ drilling) ->
-    let Mm radius = Part.mouthRadius drilling
-     in concat
-          [ [Vec.x centre, Vec.y centre, radius, bottom]
-            | Part.Hole (Located _ centre) (Mm bottom) <- NonEmpty.toList (Part.holes drilling)
-          ]
+    concat
+      [ [Vec.x centre, Vec.y centre, radius, bottom]
+        | Part.Hole (Located _ centre) (Mm bottom) (Mm radius) <-
+            NonEmpty.toList (Part.holes drilling)
+      ]
   _ -> []
 
 -- Moves -------------------------------------------------------------------------------------------

@@ -238,7 +238,7 @@ holes =
       ("thread", "Mills threads in a helix."),
       ("threadmill", "Is a thread mill."),
       ("angle", "Gives the angle of a countersink, or of the point of a drill."),
-      ("pitch", "Gives the pitch of a thread or of a helix."),
+      ("pitch", "Gives the pitch of a thread, or the largest height of one turn of a helix."),
       ("hand", "Says if a thread is a right-hand or a left-hand one."),
       ("floating", "Says that the tap is in a floating holder.")
     ]
@@ -306,7 +306,7 @@ otherSettings =
     <> under
       "language.md#drilling"
       [ ("peck", "Gives the depth that is drilled before the drill is lifted."),
-        ("shortest", "Has the holes drilled in the order of a short way."),
+        ("shortest", "Has the holes made in the order of a short way."),
         ("chip", "Gives the height by which the drill rises after each peck."),
         ("chip break", "Gives the height by which the drill rises after each peck."),
         ("break", "Belongs to chip break, the rise after each peck.")

@@ -16,11 +16,12 @@ import Checked.Type qualified as Type
 import Data.List (nub)
 import Data.List.NonEmpty (NonEmpty (..))
 import Data.List.NonEmpty qualified as NonEmpty
-import Data.Maybe (isJust, listToMaybe)
+import Data.Maybe (isJust, listToMaybe, mapMaybe)
 import Data.Text (Text)
 import Query.Cursor (Cursor (..), Level (..), Opening (..), isWord, segments, wantsOperand, wordsOf)
 import Query.SlotWord (GrammarWord (GrammarWord), Slot (..))
 import Query.SlotWord qualified as SlotWord
+import Surface.HoleForm qualified as HoleForm
 import Surface.Keyword qualified as Keyword
 import Surface.Token (Token (..), Token_ (Number, Symbol))
 
@@ -45,7 +46,7 @@ slots typings cursor = nub (withColumns (inLevel typings cursor (levels cursor))
       _ -> False
 
 -- | The names after the word @in@ of the repetitions around the cursor, and after the word @at@ of
--- a drilling statement before its depth. If such a name is that of a table, the names of its
+-- a work on holes before its sizes. If such a name is that of a table, the names of its
 -- columns are values at the cursor.
 tablesAround :: Cursor -> [Text]
 tablesAround cursor = drilled <> concatMap repeatedIn (NonEmpty.tail (levels cursor))
@@ -54,11 +55,19 @@ tablesAround cursor = drilled <> concatMap repeatedIn (NonEmpty.tail (levels cur
       first : rest | isWord first ["for"] -> wordsOf (drop 1 (dropWhile (not . isIn) rest))
       _ -> []
     isIn t = isWord t ["in"]
-    drilled = case [reverse (heads l) | l <- NonEmpty.toList (levels cursor), isDrilling l] of
-      (_ : rest) : _ | any (`isWord` ["depth"]) rest -> wordsOf (takeWhile (not . isDepth) rest)
+    drilled = case mapMaybe workOnHoles (NonEmpty.toList (levels cursor)) of
+      (sizes, rest) : _
+        | any (`isWord` sizes) (take 1 (reverse (filter isSize rest))) ->
+          wordsOf (takeWhile (not . isSize) rest)
       _ -> []
-    isDrilling l = any (`isWord` ["drill"]) (take 1 (reverse (heads l)))
-    isDepth t = isWord t ["depth"]
+    -- The sizes that may name columns, and the tokens after the keyword.
+    workOnHoles l = case reverse (heads l) of
+      first : rest
+        | isWord first ["drill"] -> Just (["depth"], rest)
+        | work : _ <- mapMaybe HoleForm.named (wordsOf [first]) ->
+          Just (map HoleForm.sizeWord (filter (HoleForm.isByRow work) [minBound ..]), rest)
+      _ -> Nothing
+    isSize t = isWord t (map HoleForm.sizeWord [minBound ..])
 
 inLevel :: Typings -> Cursor -> NonEmpty Level -> [Slot]
 inLevel typings cursor (top :| outer) = case opening top of

@@ -107,7 +107,7 @@ clearingEntries keyword = case keyword of
 holeEntries :: HoleWork -> [(Text, ([Slot], [Slot]))]
 holeEntries work =
   [ (HoleForm.word work, (words' ["at"], [])),
-    ("at", ([AtValue [ListOf Type.aPoint, Type.aPoint] False], words' firsts))
+    ("at", (drilled, words' firsts))
   ]
     <> [ (word, (value (if word == "angle" then Type.angle else Type.len), words' after))
          | (word, after) <- followers

@@ -4,6 +4,7 @@ module Surface.HoleForm
     named,
     sizeForms,
     sizeWord,
+    isByRow,
     words',
   )
 where
@@ -48,3 +49,12 @@ sizeWord size = case size of
   HoleDepth -> "depth"
   HolePitch -> "pitch"
   HoleAngle -> "angle"
+
+-- | True for a size that may be another one in each row of a table: the depth, and the diameter at
+-- the top that a pointed tool makes.
+isByRow :: HoleWork -> HoleSize -> Bool
+isByRow work size = case size of
+  HoleDepth -> True
+  HoleDiameter -> work `elem` [Spotting, Countersinking]
+  HolePitch -> False
+  HoleAngle -> False

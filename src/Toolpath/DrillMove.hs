@@ -10,7 +10,10 @@ where
 
 import Base.Quantity (Mm (..), minus, over, plus, times)
 import Base.Region (Located (..), Region)
+import Data.List (find)
 import Data.List.NonEmpty qualified as NonEmpty
+import Data.Map.Strict (Map)
+import Data.Map.Strict qualified as Map
 import Geometry.Carrier (Sense (..))
 import Geometry.Segment (Segment (..))
 import Geometry.Segment qualified as Segment
@@ -22,7 +25,7 @@ import Part.CutFeed qualified as CutFeed
 import Part.Part
   ( Circling (..),
     Drilling,
-    Hole (Hole),
+    Hole (..),
     HoleForm (..),
     SpacePoint (..),
     ThreadHelix (..),
@@ -55,15 +58,16 @@ moves at (Located region d) =
     clear = Part.travelHeight d
     go from holes = case holes of
       [] -> []
-      h@(Hole (Located hole p) _) : rest ->
-        let made = strokes Nothing d h
+      hole : rest ->
+        let Located written p = holeCentre hole
+            made = strokes Nothing d hole
             begin = maybe p (Segment.start . path) (firstOf made)
             end = maybe p (Segment.end . path) (firstOf (reverse made))
             over' =
               LinkingMove.straightMoves
                 from
-                [Part.Stop (Located hole begin) (Just clear) Part.Rapid]
-         in over' <> map (moveOf hole) made <> go (SpacePoint end clear) rest
+                [Part.Stop (Located written begin) (Just clear) Part.Rapid]
+         in over' <> map (moveOf written) made <> go (SpacePoint end clear) rest
     firstOf list = case list of
       s : _ -> Just s
       [] -> Nothing
@@ -76,7 +80,7 @@ data Stroke = Stroke {path :: Segment, _between :: (Mm, Mm), _speed :: Part.Pace
 
 -- | The moves at a hole, from the clearance height back to it.
 strokes :: Maybe PeckRule -> Drilling -> Hole -> [Stroke]
-strokes rule d hole@(Hole (Located _ p) bottom) = case Part.form d of
+strokes rule d hole = case Part.form d of
   Plunged -> pecks rule d hole
   Reamed -> inAndOut
   Tapped _ -> inAndOut
@@ -85,14 +89,15 @@ strokes rule d hole@(Hole (Located _ p) bottom) = case Part.form d of
   where
     clear = Part.travelHeight d
     down = Part.At (Part.drillFeed d)
+    p = value (holeCentre hole)
     inAndOut =
-      [ Stroke (Straight p p) (clear, bottom) down,
-        Stroke (Straight p p) (bottom, clear) down
+      [ Stroke (Straight p p) (clear, holeBottom hole) down,
+        Stroke (Straight p p) (holeBottom hole, clear) down
       ]
 
 -- | Straight down in pecks. Without pecks there is one move down.
 pecks :: Maybe PeckRule -> Drilling -> Hole -> [Stroke]
-pecks rule d (Hole (Located _ p) bottom) = go clear ends
+pecks rule d (Hole (Located _ p) bottom _) = go clear ends
   where
     clear = Part.travelHeight d
     ends = depthsOf rule d bottom
@@ -137,7 +142,7 @@ peckGap = Mm 0.5
 -- there. To clear the floor, the helix keeps to the middle, and further circles follow outwards. A
 -- cutter that has cleared the middle goes there before it rises.
 circled :: Drilling -> Circling -> Hole -> [Stroke]
-circled d c (Hole (Located _ p) bottom) =
+circled d c (Hole (Located _ p) bottom _) =
   [Stroke (Straight begin begin) (clear, Mm 0) (Part.At (Part.drillFeed d))]
     <> concat [halves first (level (k - 1), level k) | k <- [1 .. turns]]
     <> halves first (bottom, bottom)
@@ -182,7 +187,7 @@ halfTurn sense a b = Segment.arc sense (Vec.shift (Vec.scale 0.5 (Vec.to a b)) a
 -- | A thread: a half circle onto the helix, whole turns along it, and a half circle off it. All of
 -- them rise or fall by the pitch for each turn.
 threaded :: Drilling -> ThreadHelix -> Hole -> [Stroke]
-threaded d h (Hole (Located _ p) low) =
+threaded d h (Hole (Located _ p) low _) =
   [ Stroke (Straight away away) (clear, zBegin) (Part.At (Part.drillFeed d)),
     Stroke (halfTurn leadSense away onHelix) (zBegin, move 0.5) feed
   ]
@@ -212,11 +217,7 @@ threaded d h (Hole (Located _ p) low) =
         Clockwise -> CounterClockwise
         CounterClockwise -> Clockwise
     arc a b = Segment.arc (helixSense h) p a b
-    turns =
-      max
-        1
-        (ceiling (over (minus (Mm 0) low) (pitch h) - 0.5 - Tolerance.equal)) ::
-        Int
+    turns = max 1 (ceiling (over (minus (Mm 0) low) (pitch h) - 0.5 - Tolerance.equal)) :: Int
     count = fromIntegral turns :: Double
     high = plus low (times (count + 1) (pitch h))
     (zBegin, zEnd) = if rises h then (low, high) else (high, low)
@@ -225,36 +226,62 @@ threaded d h (Hole (Located _ p) low) =
 -- | The moves of a drilling statement with the pecks of a control's own cycle in place of those
 -- that begin at the clearance height above a hole and come back to it.
 withRule :: PeckRule -> Drilling -> [Move] -> [Move]
-withRule rule d ms = case ms of
-  [] -> []
-  m : more -> case filter (isMadeBy ms) (NonEmpty.toList (Part.holes d)) of
-    hole : _ ->
-      map (moveOf (Toolpath.origin m)) (strokes (Just rule) d hole)
-        <> withRule rule d (drop (length (strokes Nothing d hole)) ms)
-    [] -> m : withRule rule d more
+withRule rule d = go
   where
-    isMadeBy list hole =
-      let made = strokes Nothing d hole
-       in map asStroke (take (length made) list) == map (\(Stroke s zs _) -> (s, zs)) made
-    asStroke m = (Toolpath.segment m, Toolpath.heights m)
+    go ms = case ms of
+      [] -> []
+      m : more
+        | isStroke m,
+          Just hole <- holeOf ms (at m) ->
+          map (moveOf (Toolpath.origin m)) (strokes (Just rule) d hole)
+            <> go (drop (length (strokes Nothing d hole)) ms)
+        | otherwise -> m : go more
+    at = holesAt (holesByCentre d) . Segment.start . Toolpath.segment
+    isStroke m =
+      isVertical (Toolpath.segment m)
+        && fst (Toolpath.heights m) == Part.travelHeight d
+        && snd (Toolpath.heights m) < Part.travelHeight d
+    isVertical s = case s of
+      Straight a b -> a == b
+      Arc {} -> False
+    -- Of several holes with one centre, it is the one with these heights.
+    holeOf ms found = case found of
+      [hole] -> Just hole
+      _ -> find (areHeightsOf ms . map between . strokes Nothing d) found
+    areHeightsOf ms zs = map Toolpath.heights (take (length zs) ms) == zs
+    between (Stroke _ zs _) = zs
+
+-- | The holes of a statement by the coordinates of their centres.
+holesByCentre :: Drilling -> Map (Double, Double) [Hole]
+holesByCentre d =
+  Map.fromListWith
+    (flip (<>))
+    [(coordinates (value (holeCentre h)), [h]) | h <- NonEmpty.toList (Part.holes d)]
+
+-- | The holes with this centre, in the order of the program.
+holesAt :: Map (Double, Double) [Hole] -> Point -> [Hole]
+holesAt holes p = Map.findWithDefault [] (coordinates p) holes
+
+coordinates :: Point -> (Double, Double)
+coordinates p = (Vec.x p, Vec.y p)
 
 -- | The commands after a move of a drilling statement: the pause at the bottom of a hole, and the
 -- reversals of the spindle of a tap.
 commandsAfter :: Drilling -> Move -> [Part.Command]
-commandsAfter d m = case Part.form d of
-  Tapped t
-    | isFeed && to < from -> pause <> [Part.SpindleOn (reversed (Part.tapSense t)) rate]
-    | isFeed -> [Part.SpindleOn (Part.tapSense t) rate]
-  Plunged | isFeed && to `elem` bottomsHere -> pause
-  _ -> []
+commandsAfter d = after
   where
-    (from, to) = Toolpath.heights m
-    isFeed = Toolpath.pace m /= Part.Rapid && from /= to
-    bottomsHere =
-      [ bottom
-        | Hole (Located _ p) bottom <- NonEmpty.toList (Part.holes d),
-          p == Segment.end (Toolpath.segment m)
-      ]
+    after m = case Part.form d of
+      Tapped t
+        | isFeed m && isDown m -> pause <> [Part.SpindleOn (reversed (Part.tapSense t)) rate]
+        | isFeed m -> [Part.SpindleOn (Part.tapSense t) rate]
+      Plunged | not (null pause) && isFeed m && endsAtBottom m -> pause
+      _ -> []
+    isDown m = uncurry (>) (Toolpath.heights m)
+    isFeed m = Toolpath.pace m /= Part.Rapid && uncurry (/=) (Toolpath.heights m)
+    endsAtBottom m =
+      snd (Toolpath.heights m)
+        `elem` map holeBottom (holesAt holes (Segment.end (Toolpath.segment m)))
+    holes = holesByCentre d
     pause = [Part.Dwell t | Just t <- [Part.bottomPause d]]
     rate = case value (Part.drillFeed d) of
       CutFeed.PerTurn _ r -> r

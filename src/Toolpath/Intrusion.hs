@@ -95,7 +95,8 @@ intrusionsOfBlock machined b = case b of
   Commanding _ -> []
   Travelling radius' _ ms -> concatMap (found (Intruder radius' Nothing Nothing)) ms
   Holing (Located _ d) ms ->
-    map (asHole d) (concatMap (found (Intruder (widthOf d) Nothing Nothing)) ms)
+    let widthOf = widthIn d
+     in map (asHole d) (concat [found (Intruder (widthOf m) Nothing Nothing) m | m <- ms])
   Cutting {} -> intrusionsOfPass machined b
   Clearing {pocket = job@(Located _ p), pass, approach, cleared, retract} ->
     let clearing = Intruder (radius (Part.wall p)) Nothing Nothing
@@ -111,12 +112,24 @@ intrusionsOfBlock machined b = case b of
             )
   where
     found = intrusionsOfMove machined
-    -- A pointed tool is no wider than the mouth of its hole.
-    widthOf d = min (Part.drillRadius d) (Part.mouthRadius d)
     asHole d e = case e of
       CutsPart at move element deep _ _ _ ->
         HoleCuts at (Segment.end move) [] element deep (Part.drillRadius d) (Part.drillSize d)
       _ -> e
+
+-- | The radius of the tool of a drilling statement during a move. A pointed tool is no wider than
+-- the mouth of its hole; away from the centres of the holes it counts as wide as the widest mouth.
+widthIn :: Part.Drilling -> Move -> Mm
+widthIn d = \m -> min (Part.drillRadius d) (Map.findWithDefault (maximum mouths) (placeOf m) mouths)
+  where
+    mouths =
+      Map.fromListWith
+        max
+        [ (coordinates p, mouth)
+          | Part.Hole (Located _ p) _ mouth <- NonEmpty.toList (Part.holes d)
+        ]
+    placeOf = coordinates . Segment.end . Toolpath.segment
+    coordinates p = (Vec.x p, Vec.y p)
 
 -- | The intrusions of the moves of a pass along a contour. Empty for other blocks.
 intrusionsOfPass :: WallIndex -> Block -> [Error]

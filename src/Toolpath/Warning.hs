@@ -169,9 +169,9 @@ intoHoles path =
     holes =
       BoxTree.index
         (\h -> BoundingBox.inflate (holeRadius h) (BoundingBox.ofPoints (value (holeAt h)) []))
-        [ DrilledHole n h (Part.mouthRadius d) bottom
+        [ DrilledHole n h mouth bottom
           | (n, Holing (Located _ d) _) <- numbered,
-            Part.Hole h bottom <- NonEmpty.toList (Part.holes d)
+            Part.Hole h bottom mouth <- NonEmpty.toList (Part.holes d)
         ]
 
 -- | The contour that still holds material at the point @p@ and the height @z@: the innermost one

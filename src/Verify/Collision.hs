@@ -272,9 +272,9 @@ endless = Mm (-1 / 0)
 outlinesOf :: Block -> [[Segment]]
 outlinesOf block = case block of
   Toolpath.Holing (Located _ d) _ ->
-    [ [circle (Part.mouthRadius d) p]
+    [ [circle mouth p]
       | makesHole (Part.form d),
-        Part.Hole (Located _ p) _ <- NonEmpty.toList (Part.holes d)
+        Part.Hole (Located _ p) _ mouth <- NonEmpty.toList (Part.holes d)
     ]
   Toolpath.Clearing {Toolpath.pocket = Located _ p} ->
     [concatMap segmentsOf (Part.contour (Part.wall p) : Part.islands p)]

@@ -31,7 +31,7 @@ missingHoles machine path motions =
     | Toolpath.Holing (Located _ drilling) _ <- Toolpath.blocks path,
       -- The moves of circles are compared one by one.
       isNothing (Part.runsOf drilling),
-      Part.Hole (Located at p) bottom <- NonEmpty.toList (Part.holes drilling),
+      Part.Hole (Located at p) bottom _ <- NonEmpty.toList (Part.holes drilling),
       not (any (isDrilled machine bottom p) (near p))
   ]
   where

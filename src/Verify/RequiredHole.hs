@@ -25,8 +25,8 @@ import Verify.RequiredLink (RequiredLink (..))
 import Verify.RequiredOrder qualified as RequiredOrder
 
 -- | Moves of a statement on holes. The tool goes from hole to hole in rapid at the clearance
--- height, makes each hole, and comes back to this height. @begin@ is its position before the
--- statement.
+-- height, in the order of "Verify.RequiredOrder", makes each hole, and comes back to this height.
+-- @begin@ is its position before the statement.
 holeLinks :: Machine -> SpacePoint -> Located Drilling -> [RequiredLink]
 holeLinks machine begin (Located statement drilling) =
   [RequiredLink (still at) (height begin, clear) Part.Rapid statement | height begin < clear]
@@ -35,7 +35,7 @@ holeLinks machine begin (Located statement drilling) =
     at = plane begin
     clear = Part.travelHeight drilling
     go _ [] = []
-    go (from, z) (hole@(Part.Hole (Located region p) _) : more) =
+    go (from, z) (hole@(Part.Hole (Located region p) _ _) : more) =
       RequiredLink (Straight from first) (z, clear) Part.Rapid region :
       [RequiredLink s zs pace region | (s, zs, pace) <- made]
         <> go (final, clear) more
@@ -64,7 +64,7 @@ still p = Straight p p
 
 -- | Moves at a hole, from the clearance height back to it.
 movesAt :: Machine -> Drilling -> Hole -> [HoleMove]
-movesAt machine d hole@(Part.Hole (Located _ p) bottom) = case Part.form d of
+movesAt machine d hole@(Part.Hole (Located _ p) bottom _) = case Part.form d of
   Plunged -> drilled machine d hole
   Reamed -> bothAtFeed
   Tapped _ -> bothAtFeed
@@ -84,7 +84,7 @@ movesAt machine d hole@(Part.Hole (Located _ p) bottom) = case Part.form d of
 -- deep as the statement allows, in whole pulses, the first one from the clearance height; the last
 -- one ends at the bottom. The drill returns as near as the cycle does.
 drilled :: Machine -> Drilling -> Hole -> [HoleMove]
-drilled machine d (Part.Hole (Located _ p) bottom) =
+drilled machine d (Part.Hole (Located _ p) bottom _) =
   concat (zipWith3 peck [1 :: Int ..] (clear : map above ends) ends)
   where
     clear = Part.travelHeight d
@@ -132,7 +132,7 @@ stepCount deep peck = max 1 (min 10000 (ceiling (over deep peck - Tolerance.equa
 -- circle that leaves nothing in its middle; further circles follow outwards, none wider apart than
 -- the cutter's radius. Where the middle is free, the cutter goes there in half a circle.
 boredAt :: Drilling -> Part.Circling -> Hole -> [HoleMove]
-boredAt d c (Part.Hole (Located _ p) bottom) =
+boredAt d c (Part.Hole (Located _ p) bottom _) =
   [(still (east inner), (Part.travelHeight d, Mm 0), Part.At (Part.drillFeed d))]
     <> [(around inner, (part k, part (k + 1)), feed) | k <- [0 .. turns - 1]]
     <> [(around inner, (bottom, bottom), feed)]
@@ -166,7 +166,7 @@ boredAt d c (Part.Hole (Located _ p) bottom) =
 -- or above. Then half a circle leads back. All of them rise or fall by the pitch in a whole turn.
 -- The lowest position is that of the depth.
 threadedAt :: Drilling -> ThreadHelix -> Hole -> [HoleMove]
-threadedAt d h (Part.Hole (Located _ p) bottom) =
+threadedAt d h (Part.Hole (Located _ p) bottom _) =
   [ (still away, (clear, z 0), Part.At (Part.drillFeed d)),
     (onto, (z 0, z 0.5), feed)
   ]

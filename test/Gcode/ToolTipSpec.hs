@@ -318,6 +318,7 @@ motionOf travel = Motion kindOf (known (placeZ end), known (placeX end)) centre'
       LinearMode -> "FEED"
       ArcMode Carrier.Clockwise -> "ARC"
       ArcMode Carrier.CounterClockwise -> "COUNTER ARC"
+      CycleMode _ -> "CYCLE"
     known c = case c of
       At p -> Just (Run.picometres p)
       Retracted -> Nothing

@@ -104,13 +104,12 @@ drilling = do
         Part.chipRise = Nothing,
         Part.bottomPause = Nothing,
         Part.form = Part.Plunged,
-        Part.mouthRadius = Mm 2.5,
         Part.drillFeed = here (PerMinute (Feed 40))
       }
   where
     addApart (p, z) others =
       [(p, z) | all ((> Mm 15) . Vec.distance p . fst) others] <> others
-    hole (p, z) = Part.Hole (here p) (Mm (-z))
+    hole (p, z) = Part.Hole (here p) (Mm (-z)) (Mm 2.5)
 
 -- | A small pocket, sometimes with islands, cleared at one or two depths.
 pocketing :: Gen Part.Pocketing

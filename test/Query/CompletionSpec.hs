@@ -136,10 +136,16 @@ words' = do
   it "offers the columns of a table in a drilling and in a repetition" $ do
     let table = "part p\ntable t {\n  angle radius deep wide\n  0 9 5 9\n  9 9 6 9\n}\n"
     take 2 (labels (table <> "drill at t depth ^")) `shouldBe` ["deep", "wide"]
+    take 2 (labels (table <> "ream at t depth ^")) `shouldBe` ["deep", "wide"]
+    take 2 (labels (table <> "spot at t diameter ^")) `shouldBe` ["deep", "wide"]
+    labels (table <> "bore at t diameter ^") `shouldSatisfy` (not . any (`elem` ["deep", "wide"]))
+    labels (table <> "bore at t diameter 9 depth deep pitch ^")
+      `shouldSatisfy` (not . any (`elem` ["deep", "wide"]))
     take 2 (labels (table <> "for p in t {\n  let r = ^")) `shouldBe` ["deep", "wide"]
     take 2 (labels (table <> "for p in t {\n  if wide > ^")) `shouldBe` ["deep", "wide"]
     labels (table <> "for p in t {\n  rapid p\n}\nlet r = ^")
       `shouldSatisfy` (not . any (`elem` ["deep", "wide"]))
+    labels (table <> "ream at ^") `shouldSatisfy` all' ["t"]
     labels (table <> "drill at ^") `shouldSatisfy` all' ["t"]
     labels (table <> "for p in ^") `shouldSatisfy` all' ["t"]
 

@@ -127,16 +127,15 @@ exchanged i j way =
 drillingOf :: [Point] -> Drilling
 drillingOf points =
   Drilling
-    { Part.holes = NonEmpty.fromList [Hole (here p) (Mm (-3)) | p <- points],
+    { Part.holes = NonEmpty.fromList [Hole (here p) (Mm (-3)) (Mm 1) | p <- points],
       Part.visits = Shortest,
       Part.drillSize = Nothing,
       Part.drillRadius = Mm 1,
-      Part.mouthRadius = Mm 1,
+      Part.travelHeight = Mm 5,
+      Part.peckDepth = Nothing,
       Part.chipRise = Nothing,
       Part.bottomPause = Nothing,
       Part.form = Part.Plunged,
-      Part.travelHeight = Mm 5,
-      Part.peckDepth = Nothing,
       Part.drillFeed = here (PerMinute (Feed 60))
     }
   where

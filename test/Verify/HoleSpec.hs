@@ -48,12 +48,78 @@ spec = do
               (Right right, Right wrong) ->
                 counterexample (Text.unpack other) (isProven right wrong === False)
               (a, b) -> counterexample (show (void' a, void' b)) False
+  it
+    "holes made in the order of the list are refused where the statement asks for a short way \
+    \(catches a proof that takes the order from the list for works other than drilling)"
+    $ property $
+      forAll (workAt zigzag) $ \w ->
+        forAll (elements (controls w)) $ \machine ->
+          let listed = Text.replace "shortest" "" (statement w)
+           in case ( compiledFor machine (programOf machine w (statement w)),
+                     compiledFor machine (programOf machine w listed)
+                   ) of
+                (Right right, Right wrong) -> isProven right wrong === False
+                (a, b) -> counterexample (show (void' a, void' b)) False
   where
     void' = either Just (const Nothing)
 
--- | A work on holes: the tool, the statement, and statements with one other size.
-data Work = Work {tool :: Text, statement :: Text, altered :: [Text], isTap :: Bool}
+-- | A work on holes: the tool, the lines before the statement, the statement, and statements with
+-- one other size.
+data Work = Work
+  { tool :: Text,
+    preparation :: [Text],
+    statement :: Text,
+    altered :: [Text],
+    isTap :: Bool
+  }
   deriving stock (Show)
+
+-- | The places of holes.
+data Places = Places
+  { -- | the lines of a table, if the holes are its rows
+    tableLines :: [Text],
+    -- | the word at, and the expression of the places
+    at :: Text,
+    -- | the text of a size, which a table changes from row to row
+    ofRow :: Double -> Text,
+    -- | the setting of the order, or nothing
+    order :: Text
+  }
+
+-- | Holes whose list leads to and fro.
+zigzag :: Places
+zigzag = Places [] "at [(30, 0), (10, 0), (20, 0)]" mm "shortest"
+
+-- | Up to three holes, in a list or in the rows of a table.
+places :: Gen Places
+places = do
+  count <- chooseInt (1, 3)
+  ps <- vectorOf count ((,) <$> size (-40, 40) <*> size (-40, 40))
+  ks <- vectorOf count (elements [0.75, 1, 1.25])
+  isTable <- arbitrary
+  order <- elements ["", "shortest"]
+  let pair (x, y) = "(" <> mm x <> ", " <> mm y <> ")"
+      row (x, y) k = Text.unwords [mm x, mm y, mm k]
+  pure $
+    if isTable
+      then
+        Places
+          { tableLines = ["table holes {", "x y k"] <> zipWith row ps ks <> ["}"],
+            at = "at holes",
+            ofRow = \d -> mm d <> " mm * k",
+            order
+          }
+      else
+        Places
+          { tableLines = [],
+            at = "at [" <> Text.intercalate ", " (map pair ps) <> "]",
+            ofRow = mm,
+            order
+          }
+
+-- | A block of settings.
+block :: [Text] -> Text
+block given = " { " <> Text.unwords given <> " }"
 
 -- | Names of the controls that can make it.
 controls :: Work -> [Text]
@@ -73,9 +139,9 @@ programOf machine w made =
       "tolerance 0.03",
       "clearance 1",
       "from (0, 0, 1)",
-      "spindle cw 500 rpm",
-      made
+      "spindle cw 500 rpm"
     ]
+    <> Text.unlines (preparation w <> [made])
 
 -- | The tape or the file of a program on a machine; the reports if there is none.
 compiledFor :: Text -> Text -> Either [Text] Compiled
@@ -120,25 +186,23 @@ mm = Decimal.short 4
 
 -- | A random work on one to three holes.
 work :: Gen Work
-work = do
-  count <- chooseInt (1, 3)
-  ps <- vectorOf count ((,) <$> size (-40, 40) <*> size (-40, 40))
-  let at = "at [" <> Text.intercalate ", " [pair p | p <- ps] <> "]"
-      pair (x, y) = "(" <> mm x <> ", " <> mm y <> ")"
-  oneof [drilled at, pointed at, reamed at, circled at, threaded at, tapped at]
+work = places >>= workAt
 
-drilled :: Text -> Gen Work
-drilled at = do
+workAt :: Places -> Gen Work
+workAt ps = oneof [drilled ps, pointed ps, reamed ps, circled ps, threaded ps, tapped ps]
+
+drilled :: Places -> Gen Work
+drilled ps = do
   d <- size (4, 20)
   p <- size (1, 3)
   rise <- elements [Nothing, Just 0.254, Just 0.6]
   let made deep peck up =
-        "drill " <> at <> " depth " <> mm deep <> " { peck " <> mm peck
-          <> maybe "" ((" chip break " <>) . mm) up
-          <> " }"
+        "drill " <> at ps <> " depth " <> ofRow ps deep
+          <> block ["peck " <> mm peck, maybe "" (("chip break " <>) . mm) up, order ps]
   pure
     Work
       { tool = "drill(diameter 5)",
+        preparation = tableLines ps,
         statement = made d p rise,
         altered =
           [made (d + 0.4) p rise, made d (p / 2) rise]
@@ -146,31 +210,37 @@ drilled at = do
         isTap = False
       }
 
-pointed :: Text -> Gen Work
-pointed at = do
+pointed :: Places -> Gen Work
+pointed ps = do
   d <- size (2, 9)
-  word <- elements ["spot " <> at <> " diameter ", "countersink " <> at <> " angle 90 diameter "]
+  word <-
+    elements
+      ["spot " <> at ps <> " diameter ", "countersink " <> at ps <> " angle 90 diameter "]
+  let made wide = word <> ofRow ps wide <> block [order ps]
   pure
     Work
       { tool = "drill(diameter 12, angle 90)",
-        statement = word <> mm d,
-        altered = [word <> mm (d + 0.5), word <> mm (d - 0.5)],
+        preparation = tableLines ps,
+        statement = made d,
+        altered = [made (d + 0.5), made (d - 0.5)],
         isTap = False
       }
 
-reamed :: Text -> Gen Work
-reamed at = do
+reamed :: Places -> Gen Work
+reamed ps = do
   d <- size (2, 12)
+  let made word deep = word <> " " <> at ps <> " depth " <> ofRow ps deep <> block [order ps]
   pure
     Work
       { tool = "drill(diameter 6)",
-        statement = "ream " <> at <> " depth " <> mm d,
-        altered = ["ream " <> at <> " depth " <> mm (d + 0.4), "drill " <> at <> " depth " <> mm d],
+        preparation = tableLines ps,
+        statement = made "ream" d,
+        altered = [made "ream" (d + 0.4), made "drill" d],
         isTap = False
       }
 
-circled :: Text -> Gen Work
-circled at = do
+circled :: Places -> Gen Work
+circled ps = do
   d <- size (7, 30)
   h <- size (2, 6)
   p <- size (1, 3)
@@ -178,19 +248,16 @@ circled at = do
   isBore <- arbitrary
   let made wide deep pitch other
         | isBore =
-          "bore " <> at <> " diameter " <> mm wide <> " depth " <> mm deep <> " pitch " <> mm pitch
-            <> " { "
-            <> other
-            <> " }"
-        | otherwise =
-          "counterbore " <> at <> " diameter " <> mm wide <> " depth " <> mm deep <> " { pitch "
+          "bore " <> at ps <> " diameter " <> mm wide <> " depth " <> ofRow ps deep <> " pitch "
             <> mm pitch
-            <> " "
-            <> other
-            <> " }"
+            <> block [other, order ps]
+        | otherwise =
+          "counterbore " <> at ps <> " diameter " <> mm wide <> " depth " <> ofRow ps deep
+            <> block ["pitch " <> mm pitch, other, order ps]
   pure
     Work
       { tool = "mill(diameter 6)",
+        preparation = tableLines ps,
         statement = made d h p sense,
         altered =
           [ made (d + 0.4) h p sense,
@@ -201,19 +268,18 @@ circled at = do
         isTap = False
       }
 
-threaded :: Text -> Gen Work
-threaded at = do
+threaded :: Places -> Gen Work
+threaded ps = do
   d <- size (6, 20)
   h <- size (2, 8)
   (side, hand) <- (,) <$> elements [" inside", " outside"] <*> elements ["left", "right"]
   let made wide deep which =
-        "thread " <> at <> " diameter " <> mm wide <> " pitch 1 depth " <> mm deep <> side
-          <> " { hand "
-          <> which
-          <> " }"
+        "thread " <> at ps <> " diameter " <> mm wide <> " pitch 1 depth " <> ofRow ps deep <> side
+          <> block ["hand " <> which, order ps]
   pure
     Work
       { tool = "threadmill(diameter 4, pitch 1)",
+        preparation = tableLines ps,
         statement = made d h hand,
         altered =
           [ made (d + 0.4) h hand,
@@ -223,14 +289,16 @@ threaded at = do
         isTap = False
       }
 
-tapped :: Text -> Gen Work
-tapped at = do
+tapped :: Places -> Gen Work
+tapped ps = do
   h <- size (4, 12)
   p <- elements [0.8, 1, 1.5]
-  let made pitch deep = "tap " <> at <> " pitch " <> mm pitch <> " depth " <> mm deep
+  let made pitch deep =
+        "tap " <> at ps <> " pitch " <> mm pitch <> " depth " <> ofRow ps deep <> block [order ps]
   pure
     Work
       { tool = "tap(diameter 6)",
+        preparation = tableLines ps,
         statement = made p h,
         altered = [made (p + 0.2) h, made p (h + 0.4)],
         isTap = True
