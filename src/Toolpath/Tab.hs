@@ -74,7 +74,11 @@ data Stretch = Stretch Mm Segment
 -- @bottom@ the height of the lowest pass.
 chosen :: Tabs -> Mm -> Mm -> Mm -> NonEmpty OffsetSegment -> Either TabFault [Point]
 chosen tabs radius reach bottom path = case tabPlaces tabs of
-  Part.Evenly n -> map centre <$> traverse (inShare n) [1 .. n]
+  Part.Evenly n -> do
+    found <- traverse (inShare n) [1 .. n]
+    case [k | (k, (a, b)) <- zip [2 ..] (zip found (drop 1 found)), meets a b] of
+      k : _ -> Left (NoRoomFor k n)
+      [] -> Right (map centre found)
   Part.NearPoints ps -> do
     found <- traverse (\p -> (region p,) <$> atPoint p) ps
     let inOrder = sortOn (middle . snd) (NonEmpty.toList found)
@@ -272,7 +276,9 @@ raised tabs down (from, to) m = case filter isNear tabs of
      in fromMaybe (m :| []) (NonEmpty.nonEmpty (map part (zip cuts (drop 1 cuts))))
   where
     (low, high) = Toolpath.heights m
-    own t = plus low (times t (minus high low))
+    own t
+      | t >= 1 = high
+      | otherwise = plus low (times t (minus high low))
     placeAt t = plus from (times t (minus to from))
     isNear k =
       minus (max from to) (minus (middle k) (half k)) > Mm 0

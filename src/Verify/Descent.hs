@@ -106,13 +106,14 @@ isJoined :: Milling -> Mm -> [Slope] -> Bool
 isJoined milling level slopes = case slopes of
   [] -> False
   first : more ->
-    fst (between first) == highest milling level
-      && snd (between (foldl (\_ s -> s) first more)) == level
+    isEqual (fst (between first)) (highest milling level)
+      && isEqual (snd (between (foldl (\_ s -> s) first more))) level
       && and (zipWith follows slopes more)
   where
     follows a b =
       Vec.isNear (Segment.end (path a)) (Segment.start (path b))
-        && snd (between a) == fst (between b)
+        && isEqual (snd (between a)) (fst (between b))
+    isEqual a b = let Mm d = minus a b in abs d <= tiny
 
 -- | Test that a part of a way down is not steeper than the tangent @steepest@.
 isWithin :: Double -> Slope -> Bool

@@ -408,7 +408,7 @@ inPocket machine isFlat solids slopes pocket pass =
     includes m
       | isVertical =
         isInside && maybe False isBetween clear && hasPace verticalPace && (from <= to || isDown)
-      | isSloped && any (Descent.isOn machine slack m) slopes = isInside && hasPace plungeFeed
+      | any (Descent.isOn machine slack m) slopes = isInside && hasPace plungeFeed
       | isFlat = isInside && not isRapid && (Pocket.isFinal pass || leavesAllowance s)
       | isAt level from && isAt level to = isInside && not isRapid
       | otherwise =
@@ -422,7 +422,6 @@ inPocket machine isFlat solids slopes pocket pass =
         isInside = Pocket.contains pocket (Segment.at 0.5 s)
         isBetween z =
           minus level pulse <= min from to && (max from to <= plus z pulse || not (null solids))
-        isSloped = not (isAt from to)
         -- Below the pass before, a ramp or a helix leads down.
         isDown =
           isStraightDown milling || plus to pulse >= Descent.highest milling (Pocket.level pass)
