@@ -92,8 +92,10 @@ drilling context at points depth settings = do
           }
   where
     env = environment context
-    pecksIn :: Mm -> Mm -> Int
-    pecksIn bottom p = ceiling (min 1e9 (-(over bottom p)) - Tolerance.equal)
+
+-- | The number of pecks of at most a depth down to the height of a bottom.
+pecksIn :: Mm -> Mm -> Int
+pecksIn bottom p = ceiling (min 1e9 (-(over bottom p)) - Tolerance.equal)
 
 -- | Evaluates the rise of a drill after a peck. Fails if there is a chip break without pecks.
 chipRiseOf :: Environment -> Checked.Settings -> Eval (Maybe Mm)
@@ -225,15 +227,11 @@ madeBy context w points tool = case asked w of
   Spotting -> do
     found <- case lookup HoleDiameter (sizes w) of
       Just e -> holes [e] (mouthIn e)
-      Nothing -> holes [depth] (fmap (\d -> (d, min (cutterRadius tool) (widthAt d))) . depthIn)
+      Nothing -> holes [depth] (fmap (\d -> (d, mouthAt tool d)) . depthIn)
     pure (found, Plunged)
   Reaming -> (,Reamed) <$> holes [depth] (alike (cutterRadius tool))
   Countersinking -> do
-    let e = sizeOf w HoleAngle
-    Rad asked <- Rad . Expression.number <$> Expression.evaluate env e
-    when
-      (abs (asked - angle) > 1.0e-4)
-      (mistake (OtherAngle (region e) (Rad asked) (Rad angle)))
+    checkAngle env (sizeOf w HoleAngle) tool
     let across = sizeOf w HoleDiameter
     (,Plunged) <$> holes [across] (mouthIn across)
   Counterboring -> do
@@ -260,12 +258,23 @@ madeBy context w points tool = case asked w of
     mouthIn e row = do
       d <- lengthOf (rowNames row) Parameter.HoleDiameter (rowPlace row e)
       (,times 0.5 d) <$> depthOfMouth tool (region (rowPlace row e)) d
-    angle = CutterBody.pointOf tool
-    widthAt (Mm d) = Mm (tipOf tool + d * tan (angle / 2))
     circled clearsFloor turn = do
       d <- lengthOf env Parameter.HoleDiameter (sizeOf w HoleDiameter)
       found <- holes [depth] (alike (times 0.5 d))
       (,) found <$> bored context w tool clearsFloor (d, deepest found) turn
+
+-- | Fails if the angle of a countersink, which the expression gives, is not that of the tool.
+checkAngle :: Environment -> Expr -> Cutter -> Eval ()
+checkAngle env e tool = do
+  asked <- Expression.number <$> Expression.evaluate env e
+  when
+    (abs (asked - CutterBody.pointOf tool) > 1.0e-4)
+    (mistake (OtherAngle (region e) (Rad asked) (Rad (CutterBody.pointOf tool))))
+
+-- | The radius at the top of a hole that the point of a tool makes at this depth.
+mouthAt :: Cutter -> Mm -> Mm
+mouthAt tool (Mm d) =
+  min (cutterRadius tool) (Mm (tipOf tool + d * tan (CutterBody.pointOf tool / 2)))
 
 -- | The depth of the deepest hole.
 deepest :: [Hole] -> Mm

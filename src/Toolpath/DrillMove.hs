@@ -244,7 +244,7 @@ withRule rule d = go
     isVertical s = case s of
       Straight a b -> a == b
       Arc {} -> False
-    -- Of several holes with one centre, it is the one with these heights.
+    -- Several holes may have one centre; then it is the one with these heights.
     holeOf ms found = case found of
       [hole] -> Just hole
       _ -> find (areHeightsOf ms . map between . strokes Nothing d) found
