@@ -214,6 +214,10 @@ longFunctions =
         "Part.ConstructionError.toReport",
         "Part.ContourError.toReport",
         "Part.CurveError.toReport",
+        "Part.DescentError.toReport",
+        "Part.Error.notWholeReport",
+        "Part.Parameter.name",
+        "Toolpath.DescentReport.toReport",
         "Part.Error.factReport",
         "Part.LinkError.faultReport",
         "Part.PocketError.toReport",
@@ -231,6 +235,7 @@ longFunctions =
       <> because
         "a table of words"
         [ "Checked.NameMeaning.meanings",
+          "Query.Manual.settings",
           "Query.Manual.statements",
           "Surface.WordMeaning.meanings",
           "Surface.WordMeaning.statementMeant"
@@ -239,6 +244,7 @@ longFunctions =
         "one arm per constructor; the longer arms are functions of their own"
         [ "Checked.Expression.inferred",
           "Checked.FromSurface.statement",
+          "Checked.Settings.setting",
           "Checked.RequiredSetting.requirement",
           "Part.Expression.evaluate",
           "Part.FromChecked.step",
@@ -316,6 +322,11 @@ sharedNames =
         ("Cipher_", ["Checked.Syntax", "Surface.Syntax"]),
         ("Corners", ["Offset.RawOffset", "Surface.Syntax"]),
         ("Cutter", ["Checked.Syntax", "Part.Part", "Surface.Syntax"]),
+        ("Descent", ["Draw.Descent", "Part.Part"]),
+        ("Levelled", ["Verify.Swivel", "Verify.Tab"]),
+        ("Slope", ["Toolpath.Descent", "Verify.Descent"]),
+        ("TabPlaces", ["Checked.Syntax", "Part.Part", "Surface.Syntax"]),
+        ("Tabs", ["Checked.Syntax", "Part.Part"]),
         ("Cutter_", ["Checked.Syntax", "Surface.Syntax"]),
         ("Expr", ["Checked.Syntax", "Surface.Syntax"]),
         ("Expr_", ["Checked.Syntax", "Surface.Syntax"]),

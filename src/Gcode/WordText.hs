@@ -7,15 +7,19 @@ module Gcode.WordText
     heightText,
     lengthText,
     scaledText,
+    numbered,
+    dwellLine,
+    waitText,
   )
 where
 
 import Base.Decimal qualified as Decimal
 import Base.PulseVector (Pulses3 (..))
-import Base.Quantity (Mm (..), Pulses (..))
+import Base.Quantity (Mm (..), Pulses (..), Seconds (..))
 import Data.Maybe (isJust)
 import Data.Text (Text)
 import Data.Text qualified as Text
+import Gcode.Dialect qualified as Dialect
 import Machine.Machine
   ( Axis (..),
     Content (..),
@@ -84,3 +88,19 @@ decimalText count n
     sign = if n < 0 then "-" else ""
     padded = Text.justifyRight (count + 1) '0' (Decimal.whole (abs n))
     (whole, fraction) = Text.splitAt (Text.length padded - count) padded
+
+-- | Lines with the numbers that the description asks for.
+numbered :: ProgramForm -> [Text] -> [Text]
+numbered form body = case numberStep form of
+  Nothing -> body
+  Just step -> zipWith number [step, 2 * step ..] body
+  where
+    number n text = "N" <> Decimal.whole n <> " " <> text
+
+-- | Line that waits for a time.
+dwellLine :: ProgramForm -> Seconds -> Text
+dwellLine form t = "G4 P" <> waitText form t
+
+-- | Number of a time.
+waitText :: ProgramForm -> Seconds -> Text
+waitText form (Seconds t) = Decimal.short 3 (t / Dialect.dwellPerUnit (dialect form))

@@ -13,7 +13,7 @@ where
 
 import Base.Decimal qualified as Decimal
 import Base.PulseVector (Pulses2 (..), Pulses3 (..))
-import Base.Quantity (LengthUnit (..), Mm (..), Pulses (..), Seconds (..))
+import Base.Quantity (LengthUnit (..), Mm (..), Pulses (..))
 import Data.Map.Strict qualified as Map
 import Data.Maybe (fromMaybe, isJust, isNothing, listToMaybe, mapMaybe, maybeToList)
 import Data.Set qualified as Set
@@ -24,7 +24,6 @@ import Frame.Frame (Frame (..), FrameMotion (..), FrameProgram (..), PlannedFram
 import Frame.Frame qualified as Frame
 import Gcode.CommentText qualified as CommentText
 import Gcode.Cycle qualified as Cycle
-import Gcode.Dialect qualified as Dialect
 import Gcode.FileTime qualified as FileTime
 import Gcode.Heading (FileHeading (..))
 import Gcode.Heading qualified as Heading
@@ -263,14 +262,6 @@ marlinTexts Context {machine, form, heading} part =
     stops = [() | OtherCommand (name, _) <- actions, name `elem` stopNames]
     stopNames = map commandName (programStop (Machine.commandWords machine))
 
--- | Lines with the numbers that the description asks for.
-numbered :: ProgramForm -> [Text] -> [Text]
-numbered form body = case numberStep form of
-  Nothing -> body
-  Just step -> zipWith number [step, 2 * step ..] body
-  where
-    number n text = "N" <> Decimal.whole n <> " " <> text
-
 -- | A comment with a fixed word before the text. Controls act on some characters and on some first
 -- words of comments, so only harmless characters are kept.
 commentLine :: Context -> (Text, Text) -> Text
@@ -369,6 +360,19 @@ frameLines context now frames = case frames of
       let (moved, own) = cycleLines context now c
           (final, behind) = frameLines context moved (HoleCycle.others c)
        in (final, own <> behind)
+  -- The tool stands over its first hole: its commands and its way down come before the cycle.
+  p@PlannedFrame {frame = f, role = Frame.Drilling _} : more
+    | isSink f,
+      not (null (commands f)) ->
+      let (commanded, before) = actionLines context ended (actionsOf (machine context) f)
+          bare = p {frame = f {commands = []}}
+          (final, behind) = frameLines context commanded {restored = Nothing} (bare : more)
+       in (final, stop <> before <> behind)
+    | isSink f && isAway now,
+      isJust (HoleCycle.found (machine context) (form context) taps before' frames) ->
+      let arrived = now {isAway = False, isCoolantPaused = False, feedWritten = Nothing}
+          (final, behind) = frameLines context arrived frames
+       in (final, descentLines context now <> behind)
   p@PlannedFrame {frame = f} : more ->
     let (commanded, before) = actionLines context ended (actionsOf (machine context) f)
         (moved, own) = motionLines context commanded {restored = Nothing} f
@@ -379,6 +383,9 @@ frameLines context now frames = case frames of
     before' = (at now, restored now)
     stop = ["G80" | isJust (cycleNow now)]
     ended = now {cycleNow = Nothing}
+    isSink f = case increment f of
+      Pulses3 0 0 z -> motion f == Linear && z < 0
+      _ -> False
     isInsideAt p now' = case passNumber (role p) of
       Just n -> Set.member n (insidePasses (heading context))
       Nothing -> isInside now'
@@ -509,14 +516,6 @@ actionLine context@Context {machine, form, heading} now action = case action of
     ( now {isCoolantPaused = False},
       ["M8" | isCoolantPaused now] <> [commandText machine c]
     )
-
--- | Line that waits for a time.
-dwellLine :: ProgramForm -> Seconds -> Text
-dwellLine form t = "G4 P" <> waitText form t
-
--- | Number of a time.
-waitText :: ProgramForm -> Seconds -> Text
-waitText form (Seconds t) = Decimal.short 3 (t / Dialect.dwellPerUnit (dialect form))
 
 -- | Lines of the motion of a frame. A tool that is away comes down first.
 motionLines :: Context -> Writing -> Frame -> (Writing, [Text])

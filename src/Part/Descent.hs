@@ -81,7 +81,12 @@ tabsOf env tool levels settings = case Checked.tabs settings of
           if plus lowest height >= Mm 0
             then
               mistake
-                (TabsTooHigh (placeOf (Checked.tabHeight t)) height (times (-1) lowest) (placeOf depth))
+                ( TabsTooHigh
+                    (placeOf (Checked.tabHeight t))
+                    height
+                    (times (-1) lowest)
+                    (placeOf depth)
+                )
             else pure (Just (Located region (Tabs places width (plus lowest height) sides)))
       -- A mistake in the depth is already reported.
       _ -> pure Nothing

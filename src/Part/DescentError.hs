@@ -50,7 +50,7 @@ toReport unit misfit = case misfit of
       { hints = ["Write it as the step of the depth: depth 6 mm step 2 mm."]
       }
   WithLead region word lead ->
-    (at region "E0374" (quote word <> " begins on the path, so the statement cannot have a lead-in"))
+    (at region "E0374" (quote word <> " begins on the path, so there can be no lead-in"))
       { others = [Label lead "the lead-in"],
         hints = ["Leave the lead-in out. A lead-out is possible."]
       }
@@ -91,7 +91,8 @@ toReport unit misfit = case misfit of
       }
   TabsTooHigh region height depth there ->
     (at region "E0375" "these tabs are as high as the material, so nothing is cut at them")
-      { message = ["They are " <> inUnit height <> " high, and the depth is " <> inUnit depth <> "."],
+      { message =
+          ["They are " <> inUnit height <> " high, and the depth is " <> inUnit depth <> "."],
         others = [Label there "the depth"],
         hints = ["Write a height below the depth."]
       }

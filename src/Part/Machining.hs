@@ -246,8 +246,8 @@ startedNear env contour near = case near of
 
 -- | The heights of the passes from the highest to the lowest, in mm and negative. The pair of
 -- expressions gives @depth@, the depth of the lowest pass, and @most@, the largest stepdown. All
--- steps are equal. Without @most@ there is one pass, and so there is after a spiral, which goes down
--- to it.
+-- steps are equal. Without @most@ there is one pass, and so there is after a spiral, which goes
+-- down to it.
 levelsOf :: Environment -> Descent -> (Expr, Maybe Expr) -> Eval [Mm]
 levelsOf env wayDown (depth, most) = do
   d <- lengthOf env Parameter.Depth depth

@@ -264,10 +264,9 @@ data Milling = Milling
     clearance :: Maybe Mm,
     -- | the feed of moves down into the material
     plunge :: Maybe (Located CutFeed),
-    -- | the way down into the material, with the region of the setting, or of the statement if it
-    -- has none
+    -- | the way down into the material, with the region of the setting or of the statement
     descent :: Located Descent,
-    -- | the height at which the material begins: 0, or the top of the stock if that is higher
+    -- | the height at which the material begins: 0, or the top of a higher stock
     materialTop :: Mm,
     -- | the material that the statement leaves to hold the part, with the region of the setting
     tabs :: Maybe (Located Tabs),
@@ -323,8 +322,7 @@ data Descent
     Plunging
   | -- | along the path of the pass, at this angle to the plane at most
     Ramping Rad
-  | -- | by a helix: its largest pitch, and the diameter of the path of the cutter's centre if the
-    -- program gives it
+  | -- | by a helix: its largest pitch, and the diameter of the centre's path if it is given
     Helical Mm (Maybe Mm)
   | -- | along a closed path, by this depth at most in each lap, down to the only pass
     Spiralling Mm
@@ -590,14 +588,13 @@ data CutterKind
   | TurningCutter
   deriving stock (Eq, Show)
 
--- | The end of a move without cutting, and the speed of the move. @level@ is the height of the end.
--- If @level@ is absent, the cutter keeps its height during the move.
+-- | The end of a move without cutting, and the speed of the move. @level@ is the height of the end;
+-- if it is absent, the cutter keeps its height.
 data Stop = Stop {place :: Located Point, level :: Maybe Mm, pace :: Pace}
   deriving stock (Eq, Show)
 
 -- | The speed of a move without cutting.
 data Pace
   = Rapid
-  | -- | the feed, with the region of the program that sets it
-    At (Located CutFeed)
+  | At (Located CutFeed)
   deriving stock (Eq, Show)

@@ -36,6 +36,7 @@ import Part.Part qualified as Part
 import Toolpath.Compensation (PassMoves (PassMoves))
 import Toolpath.Compensation qualified as Compensation
 import Toolpath.Descent (Way)
+import Toolpath.Descent qualified as Descent
 import Toolpath.DescentChoice qualified as DescentChoice
 import Toolpath.Error (Error)
 import Toolpath.Lead qualified as Lead
@@ -135,11 +136,11 @@ pathEnds milling path cut =
       lastSegment = Toolpath.segment (NonEmpty.last cut)
     }
 
--- | The block of a pass. @way@ is the way down; Nothing if the cutter goes straight down. @tabs@ are
--- those over which it rises. @swivels@ has, for the start and the end of each segment of the path, the
--- height of the z axis above its middle position; Nothing without a blade. @cut@ has the moves
--- along the contour. The strict @ends@ of the path are computed before the block, so the block
--- keeps no reference to the path.
+-- | The block of a pass. @way@ is the way down; Nothing if the cutter goes straight down. @tabs@
+-- are those over which it rises. @swivels@ has, for the start and the end of each segment of the
+-- path, the height of the z axis above its middle position; Nothing without a blade. @cut@ has the
+-- moves along the contour. The strict @ends@ of the path are computed before the block, so the
+-- block keeps no reference to the path.
 blockOf ::
   CuttingPass ->
   Maybe (NonEmpty (Mm, Mm)) ->
@@ -173,20 +174,33 @@ blockOf p swivels way raisedOver cut ends@PathEnds {} = do
   where
     milling = value (milled p)
     word = wordOf p
-    passMoves = allMoves p swivels way cut ends
+    passMoves = allMoves p swivels (raisedEntry p raisedOver <$> way) cut ends
     down = LinkingMove.descentPace milling
     descent = maybe [] (descentMoves p raisedOver passMoves) way
+
+-- | A way down whose entry is above the tab over which it begins.
+raisedEntry :: CuttingPass -> [Tab] -> Way -> Way
+raisedEntry p raisedOver way = case slopeOver p raisedOver way of
+  m : _ -> way {Descent.entryHeight = fst (Toolpath.heights m)}
+  [] -> way
+
+-- | The moves of a way down, raised over the tabs.
+slopeOver :: CuttingPass -> [Tab] -> Way -> [Move]
+slopeOver p raisedOver =
+  concatMap raised . NonEmpty.toList . LinkingMove.slopeMoves (wordOf p) milling
+  where
+    milling = value (milled p)
+    raised (places, m) = case places of
+      Just along ->
+        NonEmpty.toList (Tab.raised raisedOver (LinkingMove.descentPace milling) along m)
+      Nothing -> [m]
 
 -- | The moves of a way down, raised over the tabs, and those from its end to the cut.
 descentMoves :: CuttingPass -> [Tab] -> PassMoves -> Way -> [Move]
 descentMoves p raisedOver passMoves way = slope <> link <> Compensation.leadIn passMoves
   where
     milling = value (milled p)
-    slope = concatMap raised (NonEmpty.toList (LinkingMove.slopeMoves (wordOf p) milling way))
-    raised (places, m) = case places of
-      Just along ->
-        NonEmpty.toList (Tab.raised raisedOver (LinkingMove.descentPace milling) along m)
-      Nothing -> [m]
+    slope = slopeOver p raisedOver way
     link =
       LinkingMove.straightMoves
         (LinkingMove.endPosition (from p) slope)

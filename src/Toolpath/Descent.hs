@@ -89,8 +89,9 @@ ramp (Rad angle) (top, bottom) given = do
         then Nothing
         else Just (sloped (top, bottom) (thereAndBack pairs (firstPart share path)))
 
--- | The spiral from the height @top@ to the height @bottom@ along a closed path, by the depth @step@
--- at most in each lap. Nothing if that takes more than 'mostTurns' laps, or if the path is open.
+-- | The spiral from the height @top@ to the height @bottom@ along a closed path, by the depth
+-- @step@ at most in each lap. Nothing if that takes more than 'mostTurns' laps, or if the path is
+-- open.
 spiral :: Mm -> (Mm, Mm) -> NonEmpty Segment -> Maybe Way
 spiral step (top, bottom) given = do
   path <- withLength given
@@ -134,8 +135,8 @@ sloped (top, bottom) path =
             Nothing -> part bottom :| []
             Just others -> NonEmpty.cons (part (at ended)) (go ended others)
 
--- | The last part of a path, of the length @far@. The stretches come in the reverse order, again and
--- again.
+-- | The last part of a path, of the length @far@. The stretches come in the reverse order, again
+-- and again.
 lastPart :: Mm -> NonEmpty Stretch -> NonEmpty Stretch
 lastPart = go []
   where

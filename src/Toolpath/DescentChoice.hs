@@ -6,7 +6,7 @@ module Toolpath.DescentChoice
 where
 
 import Base.Quantity (Mm (..), minus, plus, times)
-import Base.Region (Located (..), Region)
+import Base.Region (Located (..))
 import Data.List.NonEmpty (NonEmpty (..))
 import Geometry.Carrier (Sense (..))
 import Geometry.Distance qualified as Distance
@@ -32,7 +32,7 @@ alongContour milling reach heights path = case value (Part.descent milling) of
   Part.Helical pitch diameter -> case reverse (Part.approach milling) of
     [] -> failed (HelixWithoutApproach at)
     Part.Stop (Located _ p) _ _ : _ ->
-      Just <$> helixAt milling at (pitch, diameter) reach (walls p) heights p
+      Just <$> helixAt milling (pitch, diameter) reach (walls p) heights p
   where
     at = region (Part.descent milling)
     found = maybe (failed (TooManyTurns at Descent.mostTurns)) Right
@@ -41,21 +41,21 @@ alongContour milling reach heights path = case value (Part.descent milling) of
       minimum
         (fmap (Distance.toPoint p . Part.segment) (Part.elements (Part.contour milling)))
 
--- | The way down to a pass of a pocket about the point @p@, or along the path @path@; Nothing if the
--- cutter goes straight down. @reach@ is the distance of the outermost loop from the walls, and
+-- | The way down to a pass of a pocket about the point @p@, or along the path @path@; Nothing if
+-- the cutter goes straight down. @reach@ is the distance of the outermost loop from the walls, and
 -- @room@ the distance of @p@ from them.
 inPocket ::
   Milling -> Mm -> (Mm, Mm) -> (Point, Mm) -> NonEmpty Segment -> Either Error (Maybe Way)
 inPocket milling reach heights (p, room) path = case value (Part.descent milling) of
   Part.Helical pitch diameter ->
-    Just <$> helixAt milling (region (Part.descent milling)) (pitch, diameter) reach room heights p
+    Just <$> helixAt milling (pitch, diameter) reach room heights p
   _ -> alongContour milling reach heights path
 
--- | The helix about the point @p@, whose distance from the walls is @room@. Without a diameter it is
--- the largest one that fits, up to 'Descent.usualShare'.
+-- | The helix about the point @p@, whose distance from the walls is @room@. Without a diameter it
+-- is the largest one that fits, up to 'Descent.usualShare'.
 helixAt ::
-  Milling -> Region -> (Mm, Maybe Mm) -> Mm -> Mm -> (Mm, Mm) -> Point -> Either Error Way
-helixAt milling at (pitch, asked) reach room heights p
+  Milling -> (Mm, Maybe Mm) -> Mm -> Mm -> (Mm, Mm) -> Point -> Either Error Way
+helixAt milling (pitch, asked) reach room heights p
   | diameter > plus largest (Mm 1e-9) || diameter < least =
     Left (NoDescent (NoRoomForHelix at p asked (max (Mm 0) largest)))
   | otherwise =
@@ -64,6 +64,7 @@ helixAt milling at (pitch, asked) reach room heights p
       Right
       (Descent.helix sense pitch (times 0.5 diameter) heights p)
   where
+    at = region (Part.descent milling)
     cutter = times 2 (Part.radius milling)
     largest = times 2 (minus room reach)
     least = times Descent.leastHelix cutter

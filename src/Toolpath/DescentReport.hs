@@ -17,7 +17,7 @@ import Toolpath.Tab (TabFault (..))
 -- | A fault of a way down. The first field of every constructor is the region of the setting. The
 -- comment of a constructor names the other fields in order.
 data DescentFault
-  = -- | a ramp or a spiral along a path that has no length, or in more than so many laps, strokes or
+  = -- | a ramp or a spiral along a path without length, or in more than so many laps, strokes or
     -- turns
     TooManyTurns Region Int
   | -- | a helix without room: its centre, its diameter if the program gives it, and the largest

@@ -147,7 +147,7 @@ data Error
     TooManyLoops Region Int
   | -- | a way down that is not possible
     NoDescent DescentFault
-  | -- | tabs that have no room: the region of the setting, the length of the raised part of one tab,
+  | -- | tabs without room: the region of the setting, the length of the raised part of one tab,
     -- and the fault
     NoTab Region Mm TabFault
   deriving stock (Eq, Show)

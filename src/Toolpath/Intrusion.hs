@@ -98,7 +98,10 @@ intrusionsOfBlock machined b = case b of
     let widthOf = widthIn d
      in map
           (asHole d)
-          (filter (not . isOwnThread d) (concat [found (Intruder (widthOf m) Nothing Nothing) m | m <- ms]))
+          ( filter
+              (not . isOwnThread d)
+              (concat [found (Intruder (widthOf m) Nothing Nothing) m | m <- ms])
+          )
   Cutting {} -> intrusionsOfPass machined b
   Clearing {pocket = job@(Located _ p), pass, approach, cleared, retract} ->
     let clearing = Intruder (radius (Part.wall p)) Nothing Nothing
@@ -119,13 +122,13 @@ intrusionsOfBlock machined b = case b of
         HoleCuts at (Segment.end move) [] element deep (Part.drillRadius d) (Part.drillSize d)
       _ -> e
 
--- | True for a cut into the cylinder whose thread is milled: a circle about the centre of a hole. The
--- teeth go below it.
+-- | True for a cut into the cylinder whose thread is milled: a circle about the centre of a hole.
+-- The teeth go below it.
 isOwnThread :: Part.Drilling -> Error -> Bool
 isOwnThread d e = case (Part.form d, e) of
   (Part.Threaded _, CutsPart _ _ element _ _ _ _)
     | Arc {Segment.centre = c} <- Part.segment element ->
-      or [Vec.isNear c p | Part.Hole (Located _ p) _ <- NonEmpty.toList (Part.holes d)]
+      or [Vec.isNear c p | Part.Hole (Located _ p) _ _ <- NonEmpty.toList (Part.holes d)]
   _ -> False
 
 -- | The radius of the tool of a drilling statement during a move. A pointed tool is no wider than

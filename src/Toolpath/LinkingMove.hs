@@ -86,7 +86,7 @@ withoutDepth Visit {word, milling, isFirst, isLast, from} z (inZ, outZ) begin fi
 -- With a way down @way@, the cutter goes straight down where the way begins, to the height of its
 -- beginning. The moves of the way are not in the result.
 withDepth :: Visit -> Mm -> (Mm, Mm) -> Maybe Way -> Point -> Point -> ([Move], [Move])
-withDepth Visit {word, milling, isFirst, isLast, from} clear (inZ, outZ) way begin finish =
+withDepth visit@Visit {word, milling, isLast, from} clear (inZ, outZ) way begin finish =
   ( case way of
       Nothing ->
         up <> over <> down inZ
@@ -99,25 +99,7 @@ withDepth Visit {word, milling, isFirst, isLast, from} clear (inZ, outZ) way beg
   where
     pace = Part.At (feed milling)
     up = rise from clear word
-    stops =
-      [ s {Part.level = Just (fromMaybe clear (Part.level s))}
-        | s <- (if isFirst then id else lastOf) (Part.approach milling)
-      ]
-    over =
-      straightMoves
-        (endPosition from up)
-        ( case way of
-            Nothing | not (null stops) -> stops
-            Nothing -> [above' begin]
-            Just w -> stops <> straight <> [above' (Descent.entry w)]
-        )
-    -- Straight up to the clearance height from a lower stop, before the move to the way down.
-    straight =
-      [ s {Part.level = Just clear, Part.pace = Part.Rapid}
-        | s <- lastOf stops,
-          Part.level s /= Just clear
-      ]
-    above' p = Part.Stop (Located word p) (Just clear) Part.Rapid
+    over = straightMoves (endPosition from up) (stopsOver visit clear begin way)
     above = endPosition (endPosition from up) over
     down = plunge word milling above
     (firstRetract, otherRetracts) = case Part.retract milling of
@@ -133,6 +115,26 @@ withDepth Visit {word, milling, isFirst, isLast, from} clear (inZ, outZ) way beg
             (endPosition out lift)
             [s {Part.level = Just (fromMaybe clear (Part.level s))} | s <- otherRetracts]
         else []
+
+-- | The stops before the cutter goes down, at the clearance height @clear@ if they have no height:
+-- those of the approach, or the beginning @begin@ of the pass without an approach. The beginning of
+-- a way down follows them, straight up from a lower stop.
+stopsOver :: Visit -> Mm -> Point -> Maybe Way -> [Stop]
+stopsOver Visit {word, milling, isFirst} clear begin way = case way of
+  Nothing | not (null stops) -> stops
+  Nothing -> [above begin]
+  Just w -> stops <> straight <> [above (Descent.entry w)]
+  where
+    stops =
+      [ s {Part.level = Just (fromMaybe clear (Part.level s))}
+        | s <- (if isFirst then id else lastOf) (Part.approach milling)
+      ]
+    straight =
+      [ s {Part.level = Just clear, Part.pace = Part.Rapid}
+        | s <- lastOf stops,
+          Part.level s /= Just clear
+      ]
+    above p = Part.Stop (Located word p) (Just clear) Part.Rapid
     lastOf xs = take 1 (reverse xs)
 
 -- | A vertical move to the height @target@ at the plunge feed, or at the feed of the statement if

@@ -42,8 +42,8 @@ import Toolpath.Descent qualified as Descent
 import Toolpath.DescentChoice qualified as DescentChoice
 import Toolpath.DescentReport (DescentFault (HelixBehindWall))
 import Toolpath.Error (Error (..))
-import Toolpath.HelixPlace qualified as HelixPlace
 import Toolpath.FacePath qualified as FacePath
+import Toolpath.HelixPlace qualified as HelixPlace
 import Toolpath.Inset qualified as Inset
 import Toolpath.LinkingMove (Visit (Visit))
 import Toolpath.LinkingMove qualified as LinkingMove
@@ -206,7 +206,7 @@ passOf pocket visit travelHeight pass@PocketPass {allowance, level = z, sections
         Nothing -> LinkingMove.withoutDepth visit' z (z, z) begin finish
         Just clear -> LinkingMove.withDepth visit' clear (z, z) way begin finish
       slope = maybe [] (slopeTo begin) way
-  along <- movesOf wayDown slopeTo word milling z travelHeight (NonEmpty.toList sections')
+  along <- movesOf wayDown slopeTo visit z travelHeight (NonEmpty.toList sections')
   cleared <- fitting (NonEmpty.nonEmpty (slope <> along))
   Right (before, cleared, after)
   where
@@ -233,8 +233,8 @@ goingOver word c q milling =
           maybe False (/= c) (Part.level s)
       ]
 
--- | The way down to the first of some sections; Nothing if the cutter goes straight down. @about@ is
--- the centre of a helix. If it is Nothing, the helix is near the beginning of the sections.
+-- | The way down to the first of some sections; Nothing if the cutter goes straight down. @about@
+-- is the centre of a helix. If it is Nothing, the helix is near the beginning of the sections.
 wayInPocket ::
   Pocketing -> PocketPass -> Maybe Point -> NonEmpty PocketMove -> Either Error (Maybe Way)
 wayInPocket pocket PocketPass {allowance, level, above} about sections =
@@ -261,20 +261,18 @@ slopeMoves word milling begin way = slope <> [link | not (Vec.isNear end begin)]
     z = snd (Descent.heights final)
     link = Move (Straight end begin) (Manner (z, z) (Part.At (feed milling)) False) word False
 
--- | The moves of the sections of a pass at the height @z@; @word@ is the region of the statement's
--- first word. A linking move over a wall rises to the clearance height @travelHeight@ and goes down
--- again as the statement asks: @wayDown@ gives the way down to the sections after it, and @slopeTo@
--- the moves of that way to a point.
+-- | The moves of the sections of a pass at the height @z@. A linking move over a wall rises to the
+-- clearance height @travelHeight@ and goes down again as the statement asks: @wayDown@ gives the
+-- way down to the sections after it, and @slopeTo@ the moves of that way to a point.
 movesOf ::
   (Maybe Point -> NonEmpty PocketMove -> Either Error (Maybe Way)) ->
   (Point -> Way -> [Move]) ->
-  Region ->
-  Milling ->
+  Visit ->
   Mm ->
   Maybe Mm ->
   [PocketMove] ->
   Either Error [Move]
-movesOf wayDown slopeTo word milling z travelHeight = go
+movesOf wayDown slopeTo Visit {LinkingMove.word, LinkingMove.milling} z travelHeight = go
   where
     go sections = case sections of
       [] -> Right []

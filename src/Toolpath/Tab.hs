@@ -104,20 +104,24 @@ chosen tabs radius reach bottom path = case tabPlaces tabs of
     nearest place ts = case ts of
       [] -> Nothing
       _ -> Just (minimumBy (comparing (apart place . middle)) ts)
-    -- In each room the tab nearest to a place. The half of its length depends a little on its
-    -- middle, if the room has arcs, so that the middle is found in a few steps.
-    around place = mapMaybe (inRoom place) rooms
-    inRoom place (from, to) = do
-      let settled c = do
-            t <- tabAt c
-            Just (max (plus from (half t)) (min (minus to (half t)) place))
-      c <- foldr (const (>>= settled)) (Just (max from (min to place))) [1 :: Int .. 8]
-      t <- tabAt c
-      let isInside =
-            plus (minus (middle t) (half t)) Tolerance.coincident >= from
-              && minus (plus (middle t) (half t)) Tolerance.coincident <= to
-      if isInside then Just t else Nothing
+    around place = mapMaybe (inRoom tabAt place) rooms
     tabAt = tabOn tabs radius bottom stretches
+
+-- | The tab in a room that is nearest to a place; Nothing if the room is too short. @tabAt@ gives a
+-- tab by its middle. Its half depends a little on the middle, if the room has arcs, so that the
+-- middle is found in a few steps.
+inRoom :: (Mm -> Maybe Tab) -> Mm -> (Mm, Mm) -> Maybe Tab
+inRoom tabAt place (from, to) = do
+  c <- foldr (const (>>= settled)) (Just (max from (min to place))) [1 :: Int .. 8]
+  t <- tabAt c
+  let isInside =
+        plus (minus (middle t) (half t)) Tolerance.coincident >= from
+          && minus (plus (middle t) (half t)) Tolerance.coincident <= to
+  if isInside then Just t else Nothing
+  where
+    settled c = do
+      t <- tabAt c
+      Just (max (plus from (half t)) (min (minus to (half t)) place))
 
 -- | The tabs on a path, in its order, with their middles at the positions of the path nearest to
 -- @middles@. Positions further from the path than @far@ are left out: they are on another part of
@@ -156,9 +160,10 @@ tabOn tabs radius bottom stretches c = do
 apart :: Mm -> Mm -> Mm
 apart a b = let Mm d = minus a b in Mm (abs d)
 
--- | The rooms of a path, by their ends: its smooth stretches, less the margin @margin@ at both ends.
--- An arc is small if its radius, or that of the element beside it, is below @least@. @reach@ is the
--- distance of the path from the contour. A room does not extend across the beginning of the path.
+-- | The rooms of a path, by their ends: its smooth stretches, less the margin @margin@ at both
+-- ends. An arc is small if its radius, or that of the element beside it, is below @least@. @reach@
+-- is the distance of the path from the contour. A room does not extend across the beginning of the
+-- path.
 roomsIn :: Mm -> Mm -> Mm -> NonEmpty OffsetSegment -> [(Mm, Mm)]
 roomsIn margin least reach path =
   [ (plus from margin, minus to margin)
@@ -259,8 +264,8 @@ raisedAlong tabs down = go (Mm 0)
        in maybe first ((first <>) . go to) (NonEmpty.nonEmpty more)
 
 -- | A move raised over the tabs of its path. The places are those of its beginning and its end; the
--- second one is the smaller one if the move goes backwards along the path. The move is divided where
--- its slope changes. Parts that go down have the speed @down@.
+-- second one is the smaller one if the move goes backwards along the path. The move is divided
+-- where its slope changes. Parts that go down have the speed @down@.
 raised :: [Tab] -> Part.Pace -> (Mm, Mm) -> Move -> NonEmpty Move
 raised tabs down (from, to) m = case filter isNear tabs of
   [] -> m :| []

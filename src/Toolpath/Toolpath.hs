@@ -324,8 +324,8 @@ end path =
     (concatMap moves (blocks path))
 
 -- | Reduces the cut of each pass to its first and last move, so that a large toolpath needs little
--- memory. The ramps and helices of a pocket stay. The cuts of a blade, and those over tabs, stay whole, because their heights vary between
--- the ends.
+-- memory. The ramps and helices of a pocket stay. The cuts of a blade, and those over tabs, stay
+-- whole, because their heights vary between the ends.
 withoutCuts :: Toolpath -> Toolpath
 withoutCuts path = foldr seq () abridged `seq` path {blocks = abridged}
   where

@@ -204,7 +204,10 @@ intoAvoided facts (Located region solid) =
             CutterBody.Cylinder r above <- CutterBody.cylindersOf c
         ]
     widest =
-      foldl' max (Mm 0) [plus r (strays m) | m <- unlevelledMotions subject, Cylinder _ r _ <- cylindersOf m]
+      foldl'
+        max
+        (Mm 0)
+        [plus r (strays m) | m <- unlevelledMotions subject, Cylinder _ r _ <- cylindersOf m]
 
 -- | Collision of a part of the tool in a motion with a body: the lowest height of the tip, and the
 -- top of the body.

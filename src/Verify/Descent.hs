@@ -80,7 +80,8 @@ slopesOf milling moves = case value (Part.descent milling) of
       Arc {} -> True
       Straight _ _ -> False
 
--- | The ways down among the moves of a pass of a pocket: those parts that are as the statement asks.
+-- | The ways down among the moves of a pass of a pocket: those parts that are as the statement
+-- asks.
 inPocket :: Milling -> Mm -> NonEmpty Move -> [Slope]
 inPocket milling level moves = filter isRight (map slope (filter descends (NonEmpty.toList moves)))
   where
@@ -106,7 +107,7 @@ isJoined :: Milling -> Mm -> [Slope] -> Bool
 isJoined milling level slopes = case slopes of
   [] -> False
   first : more ->
-    isEqual (fst (between first)) (highest milling level)
+    isBegin (fst (between first))
       && isEqual (snd (between (foldl (\_ s -> s) first more))) level
       && and (zipWith follows slopes more)
   where
@@ -114,6 +115,11 @@ isJoined milling level slopes = case slopes of
       Vec.isNear (Segment.end (path a)) (Segment.start (path b))
         && isEqual (snd (between a)) (fst (between b))
     isEqual a b = let Mm d = minus a b in abs d <= tiny
+    -- The way down may begin over a tab.
+    isBegin z =
+      isEqual z (highest milling level)
+        || any (\(Located _ t) -> z <= Part.tabTop t && z >= lowest) (Part.tabs milling)
+    lowest = highest milling level
 
 -- | Test that a part of a way down is not steeper than the tangent @steepest@.
 isWithin :: Double -> Slope -> Bool

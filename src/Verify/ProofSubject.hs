@@ -106,7 +106,9 @@ subjectOf machine path program frames =
       plannedMotions =
         Tab.motions
           ( overTabs
-              (Swivel.motions (levelled (fst (run (map Frame.frame (Frame.plannedFrames program))))))
+              ( Swivel.motions
+                  (levelled (fst (run (map Frame.frame (Frame.plannedFrames program)))))
+              )
           ),
       motionIndex = BoxTree.index Motion.box motions,
       compensationErrors,

@@ -94,7 +94,7 @@ before place at (begin, ahead, z) = approach <> leadIn
                     above' = endOf (endOf at up) over'
                     slope = map (slopeMove place downPace) (slopes place)
                  in up <> over'
-                      <> vertical place above' (Descent.highest m (level place)) downPace
+                      <> vertical place above' (entryHeight place) downPace
                       <> slope
                       <> (if null slope then [] else stopMoves (endOf above' slope) [final])
     straightUp =
@@ -106,6 +106,12 @@ before place at (begin, ahead, z) = approach <> leadIn
     comingStops
       | isFirst place = Part.approach m
       | otherwise = take 1 (reverse (Part.approach m))
+
+-- | The height at which the slope of a way down begins. Over a tab it is that of the tab.
+entryHeight :: Place -> Mm
+entryHeight place = case slopes place of
+  s : _ -> fst (Descent.between s)
+  [] -> Descent.highest (milling place) (level place)
 
 -- | The move of a part of a way down.
 slopeMove :: Place -> Pace -> Slope -> RequiredLink

@@ -133,38 +133,31 @@ itemsOfBlock machine isFlat solids left@(along, clearing) visit = case block of
       Toolpath.descent,
       Toolpath.cut
     } ->
-      let slopes = slopesTo milling pass (Toolpath.segment (NonEmpty.head cut)) descent
-       in ( (drop 1 along, clearing),
-            around
-              milling
-              (placeOf visit region 4 milling pass)
-                { RequiredLink.entry = Segment.start . Descent.path <$> listToMaybe slopes,
-                  RequiredLink.slopes
-                }
-              (beginOf milling cut)
-              cut
-              (map Several (take 1 along))
-          )
+      ( (drop 1 along, clearing),
+        around
+          milling
+          (withSlopes milling pass cut descent (placeOf visit region 4 milling pass))
+          cut
+          (map Several (take 1 along))
+      )
   Toolpath.Clearing {Toolpath.pocket = Located region p, Toolpath.pass, Toolpath.cleared} ->
     let first = Segment.start (Toolpath.segment (NonEmpty.head cleared))
         isStraight = isStraightDown (Part.wall p)
         milling = (if isStraight then overWall region block first else id) (Part.wall p)
         slopes = Descent.inPocket (Part.wall p) (Toolpath.atHeight pass) cleared
-        (start, ahead, z) = beginOf milling cleared
-        entry = if isStraight then Nothing else Just start
+        entry = if isStraight then Nothing else Just first
      in ( (along, drop 1 clearing),
           around
             milling
             (placeOf visit region 6 milling pass) {RequiredLink.entry}
-            (start, ahead, z)
             cleared
             (map (Several . uncurry (inPocket machine isFlat solids slopes)) (take 1 clearing))
         )
   where
     BlockVisit begin cutter _ block _ = visit
     pulse = Machine.planeResolution machine
-    around milling place start cut group =
-      linksOf milling (RequiredLink.before place begin start)
+    around milling place cut group =
+      linksOf milling (RequiredLink.before place begin (beginOf milling cut))
         <> group
         <> linksOf milling (RequiredLink.behind place (finishOf milling cut))
     linksOf milling =
@@ -175,9 +168,19 @@ itemsOfBlock machine isFlat solids left@(along, clearing) visit = case block of
 isStraightDown :: Milling -> Bool
 isStraightDown milling = value (Part.descent milling) == Part.Plunging
 
--- | The parts of the way down to a cut that begins with the segment @first@; empty if the way is not
--- as the statement asks, so that its moves are not required. @descent@ are the moves of the toolpath
--- before the cut.
+-- | A place with the way down to its cut, whose moves are @descent@ in the toolpath.
+withSlopes :: Milling -> Toolpath.Pass -> NonEmpty Move -> [Move] -> Place -> Place
+withSlopes milling pass cut descent place =
+  place
+    { RequiredLink.entry = Segment.start . Descent.path <$> listToMaybe slopes,
+      RequiredLink.slopes
+    }
+  where
+    slopes = slopesTo milling pass (Toolpath.segment (NonEmpty.head cut)) descent
+
+-- | The parts of the way down to a cut that begins with the segment @first@; empty if the way is
+-- not as the statement asks, so that its moves are not required. @descent@ are the moves of the
+-- toolpath before the cut.
 slopesTo :: Milling -> Toolpath.Pass -> Segment -> [Move] -> [Slope]
 slopesTo milling pass first descent =
   fromMaybe
@@ -391,13 +394,9 @@ atLevels machine isFlat toolpath =
 inPocket ::
   Machine -> Bool -> [AvoidedSolid] -> [Slope] -> Pocket -> ClearingPass -> MotionGroup
 inPocket machine isFlat solids slopes pocket pass =
-  MotionGroup
-    { includes,
-      latestBegin = maxBound,
-      earliestEnd = 0,
-      clearingPass = Just (Pocket.passIndex pass)
-    }
+  MotionGroup {includes, latestBegin = maxBound, earliestEnd = 0, clearingPass}
   where
+    clearingPass = Just (Pocket.passIndex pass)
     milling = Pocket.milling pocket
     clear = Part.clearance milling
     level = Pocket.level pass

@@ -65,7 +65,8 @@ levelled machine path ms
     -- before it.
     fitting = snd (mapAccumL fit 0 ms)
     fit before m =
-      let found = mapMaybe (\(k, pass) -> (k,) <$> levelledIn machine pass m) (zip [0 :: Int ..] passes)
+      let ofPass (k, pass) = (k,) <$> levelledIn machine pass m
+          found = mapMaybe ofPass (zip [0 :: Int ..] passes)
        in case (lookup before found, found) of
             (Just same, _) -> (before, Just same)
             (Nothing, (k, first) : _) -> (k, Just first)
@@ -107,8 +108,8 @@ data TabbedPass = TabbedPass
     places :: [(Mm, Mm)]
   }
 
--- | A pass over tabs with its facts. @middles@ are the positions of the centre that the toolpath has
--- in the middles of the tabs.
+-- | A pass over tabs with its facts. @middles@ are the positions of the centre that the toolpath
+-- has in the middles of the tabs.
 tabbedPass :: Milling -> Tabs -> Toolpath.Pass -> [Point] -> TabbedPass
 tabbedPass milling asked Toolpath.Pass {Toolpath.left, Toolpath.atHeight} middles =
   pass {places = if isAsked then tabs else []}
@@ -135,7 +136,12 @@ tabbedPass milling asked Toolpath.Pass {Toolpath.left, Toolpath.atHeight} middle
     pathLength e = times (magnification side (reachOf e) (Part.segment e)) (lengthOf e)
     lengthOf = Segment.length . Part.segment
     chord = plus (Part.tabWidth asked) (times 2 (Part.radius milling))
-    tabs = [(place, f) | p <- middles, Just place <- [placeOf pass p], Just f <- [flatOf pass chord place]]
+    tabs =
+      [ (place, f)
+        | p <- middles,
+          Just place <- [placeOf pass p],
+          Just f <- [flatOf pass chord place]
+      ]
     isAsked = case Part.tabPlaces asked of
       Part.Evenly n -> length tabs == n
       Part.NearPoints ps ->
@@ -216,8 +222,8 @@ flatOf pass chord place
       where
         between = times 0.5 (plus low high)
 
--- | The motion @m@ at the height of a pass. Nothing if it is away from the contour, or does not have
--- the right height everywhere.
+-- | The motion @m@ at the height of a pass. Nothing if it is away from the contour, or does not
+-- have the right height everywhere.
 levelledIn :: Machine -> TabbedPass -> CutterMotion -> Maybe CutterMotion
 levelledIn machine pass m
   | all isRight (0 : sampled <> edges) = Just m {fromHeight = level pass, toHeight = level pass}

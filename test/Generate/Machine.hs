@@ -31,7 +31,6 @@ machine = oneof [withFixedRows, lettered, printed]
 -- | The properties of a machine that do not depend on the kind of its layout.
 data Shared = Shared
   { used :: [Axis],
-    -- | the rotary axes
     turning :: [RotaryAxis],
     -- | the motion codes, if the layout has a word for them
     motions :: Maybe MotionCodes,
@@ -571,13 +570,11 @@ arc m at = case arcs m of
         Pulses3 (Pulses (p * (c - a))) (Pulses (q * (d - b))) 0,
         Pulses2 (Pulses (negate (p * a))) (Pulses (negate (q * b)))
       )
-  _ -> do
+  kind -> do
     sense <- elements [Clockwise, CounterClockwise]
     full <- arbitrary
     Pulses3 dx dy dz <- move m at
-    let z = case arcs m of
-          Arcs {rising = True} -> dz
-          _ -> 0
+    let z = if kind `elem` [Arcs q f True | q <- [False, True], f <- [False, True]] then dz else 0
     (i, j) <- (,) <$> choose (negate reach, reach) <*> choose (negate reach, reach)
     pure (sense, if full then Pulses3 0 0 z else Pulses3 dx dy z, Pulses2 (Pulses i) (Pulses j))
   where

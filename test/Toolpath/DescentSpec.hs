@@ -67,7 +67,8 @@ spec = do
       forAll heightsAndAngle $ \(top, bottom, _) ->
         forAll ((,) <$> choose (0.3, 4) <*> choose (0.5, 6)) $ \(pitch, radius) ->
           let centre' = Vec.point 7 (-3)
-           in case Descent.helix CounterClockwise (Mm pitch) (Mm radius) (Mm top, Mm bottom) centre' of
+              heights' = (Mm top, Mm bottom)
+           in case Descent.helix CounterClockwise (Mm pitch) (Mm radius) heights' centre' of
                 Nothing -> counterexample "no helix" False
                 Just way ->
                   let parts = NonEmpty.toList (slope way)
@@ -151,7 +152,14 @@ closedPath = do
       lines' = NonEmpty.toList (polygon (doubled <> [(u + 60, v), (x + 60, y), (x + 2 * r, y)]))
   pure
     ( NonEmpty.fromList
-        (lines' <> [Segment.arc CounterClockwise (Vec.point (x + r) y) (Vec.point (x + 2 * r) y) (Vec.point x y)])
+        ( lines'
+            <> [ Segment.arc
+                   CounterClockwise
+                   (Vec.point (x + r) y)
+                   (Vec.point (x + 2 * r) y)
+                   (Vec.point x y)
+               ]
+        )
     )
 
 openPath :: Gen (NonEmpty Segment)

@@ -137,7 +137,10 @@ program = LoadedProgram.fromText "p.part"
 
 reportsOf :: Text -> [Text]
 reportsOf text =
-  [code | r <- Result.errors (Compile.analyse [] (program text)), ReportCode code <- [Report.code r]]
+  [ code
+    | r <- Result.errors (Compile.analyse [] (program text)),
+      ReportCode code <- [Report.code r]
+  ]
 
 codesOf :: Text -> [Text]
 codesOf setting =

@@ -84,8 +84,8 @@ statement r = do
       mill "room inside" <> " approach (30, 20) rapid" <> helix <> " lead in arc 2 }",
       mill "key on" <> ramp <> left' left <> " }",
       mill "key left" <> ramp <> tabs <> " }",
-      "pocket room step " <> number (1.2 * r) <> " { islands boss" <> depth <> ramp <> left <> " }",
-      "pocket room step " <> number (1.2 * r) <> " { islands boss" <> depth <> helix <> left <> " }",
+      "pocket room step " <> number r <> " { islands boss" <> depth <> ramp <> left <> " }",
+      "pocket room step " <> number r <> " { islands boss" <> depth <> helix <> left <> " }",
       "pocket disc step " <> number r <> " {" <> depth <> helix <> retract <> " }",
       "pocket star step " <> number r <> " { approach (40, 30) rapid" <> depth <> helix <> " }"
     ]
