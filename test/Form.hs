@@ -251,7 +251,8 @@ longFunctions =
           "Query.Symbol.symbol",
           "Surface.PrintProgram.statement",
           "Surface.SyntaxWalk.ofStatement",
-          "Surface.Unlocated.statement"
+          "Surface.Unlocated.statement",
+          "Verify.RequiredMove.itemsOfBlock"
         ]
       <> because
         "one inner loop: its parts would take more than ten unboxed numbers each"

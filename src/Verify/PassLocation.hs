@@ -43,6 +43,7 @@ import Verify.MotionSet qualified as MotionSet
 import Verify.PassFrames (FrameRange (..))
 import Verify.PassSearch qualified as PassSearch
 import Verify.Requirement qualified as Requirement
+import Verify.Tab qualified as Tab
 
 -- | Facts about the machine, the toolpath and the planned frames that guide the search for passes.
 data Guide = Guide
@@ -151,7 +152,7 @@ locateCut guide state cut =
       | isFlat guide = candidates
       | isJust (Part.gear milling) = filter (isSwivelled guide) atHeight
       | Just (Located _ t) <- Part.tabs milling,
-        level < Part.tabTop t =
+        Tab.isBelow (machine guide) t level =
         filter (isOverTabs guide) atHeight
       | otherwise = atHeight
     atHeight = filter (MotionSet.isAtHeight (machine guide) level) candidates

@@ -117,13 +117,7 @@ itemsOfBlock ::
   (([MotionGroup], [(Pocket, ClearingPass)]), [RequiredItem])
 itemsOfBlock machine isFlat solids left@(along, clearing) visit = case block of
   Toolpath.Travelling _ stops _ -> (left, links pulse (RequiredLink.stopMoves begin stops))
-  Toolpath.Holing drilling _ ->
-    ( left,
-      map Single $
-        concatMap
-          (overHoles drilling . moveOf (RequiredHole.slackOf machine (value drilling)))
-          (RequiredHole.holeLinks machine begin drilling)
-    )
+  Toolpath.Holing drilling _ -> (left, map Single (holes drilling))
   Toolpath.Commanding _ -> (left, [])
   Toolpath.Cutting {Toolpath.job, Toolpath.sent = Just s} ->
     ((drop 1 along, clearing), singles (slackOf machine (value job)) (edgeMoves s))
@@ -145,13 +139,14 @@ itemsOfBlock machine isFlat solids left@(along, clearing) visit = case block of
         isStraight = isStraightDown (Part.wall p)
         milling = (if isStraight then overWall region block first else id) (Part.wall p)
         slopes = Descent.inPocket (Part.wall p) (Toolpath.atHeight pass) cleared
-        entry = if isStraight then Nothing else Just first
+        place = placeOf visit region 6 milling pass
+        group = map (Several . uncurry (inPocket machine isFlat solids slopes)) (take 1 clearing)
      in ( (along, drop 1 clearing),
           around
             milling
-            (placeOf visit region 6 milling pass) {RequiredLink.entry}
+            place {RequiredLink.entry = if isStraight then Nothing else Just first}
             cleared
-            (map (Several . uncurry (inPocket machine isFlat solids slopes)) (take 1 clearing))
+            group
         )
   where
     BlockVisit begin cutter _ block _ = visit
@@ -162,7 +157,11 @@ itemsOfBlock machine isFlat solids left@(along, clearing) visit = case block of
         <> linksOf milling (RequiredLink.behind place (finishOf milling cut))
     linksOf milling =
       links (slackOf machine milling) . concatMap (linkOver solids cutter (Part.clearance milling))
-    overHoles (Located _ drilling) = moveOver solids cutter (Part.travelHeight drilling)
+    holes drilling =
+      concatMap
+        (moveOver solids cutter (Part.travelHeight (value drilling)) . moveOf (slackAt drilling))
+        (RequiredHole.holeLinks machine begin drilling)
+    slackAt = RequiredHole.slackOf machine . value
 
 -- | Test that the cutter goes straight down before each pass of a milling.
 isStraightDown :: Milling -> Bool

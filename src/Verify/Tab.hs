@@ -11,6 +11,7 @@
 module Verify.Tab
   ( Levelled (..),
     levelled,
+    isBelow,
   )
 where
 
@@ -61,16 +62,16 @@ levelled machine path ms
         isOverTabs = \m -> IntSet.member (number m) fitted
       }
   where
-    -- The top of a tab is the same in all passes. There a motion belongs to the pass of the motion
-    -- before it.
-    fitting = snd (mapAccumL fit 0 ms)
+    -- The top of a tab is the same in all passes, and may be the height of a pass above. There a
+    -- motion belongs to the pass of the motion before it.
+    fitting = snd (mapAccumL fit Nothing ms)
     fit before m =
-      let ofPass (k, pass) = (k,) <$> levelledIn machine pass m
+      let ofPass (k, pass) = (k,isOnTop machine pass m,) <$> levelledIn machine pass m
           found = mapMaybe ofPass (zip [0 :: Int ..] passes)
-       in case (lookup before found, found) of
-            (Just same, _) -> (before, Just same)
-            (Nothing, (k, first) : _) -> (k, Just first)
-            (Nothing, []) -> (before, Nothing)
+       in case ([m' | (k, _, m') <- found, Just k == before], [(k, m') | (k, False, m') <- found]) of
+            (same : _, _) -> (before, Just same)
+            ([], (k, first) : _) -> (Just k, Just first)
+            ([], []) -> (Nothing, Nothing)
     fitted = IntSet.fromList (map number (catMaybes fitting))
     passes =
       [ p
@@ -81,9 +82,20 @@ levelled machine path ms
             } <-
             Toolpath.blocks path,
           Just (Located _ asked) <- [Part.tabs milling],
-          Toolpath.atHeight pass < Part.tabTop asked,
+          isBelow machine asked (Toolpath.atHeight pass),
           p <- [tabbedPass milling asked pass tabs]
       ]
+
+-- | Test that a pass at the height @level@ is below the tops of tabs, by more than a pulse.
+isBelow :: Machine -> Tabs -> Mm -> Bool
+isBelow machine asked level =
+  minus (Part.tabTop asked) level > Machine.resolutionOf machine Machine.Z
+
+-- | Test that a motion is at the height of the tops of the tabs.
+isOnTop :: Machine -> TabbedPass -> CutterMotion -> Bool
+isOnTop machine pass m = all isThere [fromHeight m, toHeight m]
+  where
+    isThere z = let Mm d = minus z (top pass) in Mm (abs d) <= Machine.resolutionOf machine Machine.Z
 
 -- | A pass over tabs.
 data TabbedPass = TabbedPass
