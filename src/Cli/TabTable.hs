@@ -30,8 +30,8 @@ tables path =
       Map.fromList
         [ (Toolpath.number pass, (milling, asked, tabs))
           | Cutting {job = Located _ milling, pass, tabs} <- Toolpath.blocks path,
-            Just (Located _ asked) <- [Part.tabs milling],
-            not (null tabs)
+            not (null tabs),
+            Just (Located _ asked) <- [Part.tabs milling]
         ]
 
 table :: LengthUnit -> Milling -> Tabs -> [Point] -> Text

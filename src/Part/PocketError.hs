@@ -113,7 +113,6 @@ toReport unit misfit = case misfit of
             | let half = Decimal.inUnit unit (times 0.5 diameter)
           ]
       }
-
   RestElsewhere region there ->
     (at region "E0382" "this pocket is cleared outside of the block")
       { others = [Label (firstWord there) "the pocket is cleared here"],

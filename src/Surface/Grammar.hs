@@ -364,7 +364,7 @@ settingForms =
         *> (Helix <$> onSameLine "a pitch" expr <*> Parsec.optional (keyword "diameter" *> expr))
     ),
     ("spiral", pure Spiral),
-    ("tabs", (Tabs . TabCount <$> onSameLine "a number" expr) >>= tabSizes),
+    ("tabs", onSameLine "a number" expr >>= tabSizes . Tabs . TabCount),
     ("tab", keyword "at" *> (Tabs . TabsAt <$> (expr `sepBy1` ",")) >>= tabSizes),
     ("peck", Peck <$> onSameLine "a depth" expr),
     ("shortest", pure ShortestWay),

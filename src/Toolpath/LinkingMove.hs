@@ -144,7 +144,7 @@ plunge word milling (SpacePoint p z) target =
   [Move (Straight p p) (Manner (z, target) (descentPace milling) False) word False | z /= target]
 
 -- | The moves of a way down, at the plunge feed, or at the feed of the statement without one.
-slopeMoves :: Region -> Milling -> Way -> NonEmpty ((Maybe (Mm, Mm)), Move)
+slopeMoves :: Region -> Milling -> Way -> NonEmpty (Maybe (Mm, Mm), Move)
 slopeMoves word milling way =
   fmap
     ( \s ->

@@ -272,13 +272,13 @@ raised tabs down (from, to) m = case filter isNear tabs of
   near ->
     let cuts = 0 : filter (\t -> t > 0 && t < 1) (nubOrd (sort (concatMap bends near))) <> [1]
         highest t = maximum (own t : map (\k -> heightOver k (placeAt t)) near)
-        part (a, b) =
+        part a b =
           atPace (highest a) (highest b) $
             (Toolpath.atHeights (highest a, highest b) m)
               { Toolpath.segment = Segment.between a b (Toolpath.segment m),
                 Toolpath.continues = Toolpath.continues m && a <= 0
               }
-     in fromMaybe (m :| []) (NonEmpty.nonEmpty (map part (zip cuts (drop 1 cuts))))
+     in fromMaybe (m :| []) (NonEmpty.nonEmpty (zipWith part cuts (drop 1 cuts)))
   where
     (low, high) = Toolpath.heights m
     own t
