@@ -68,8 +68,9 @@ levelled machine path ms
     fit before m =
       let ofPass (k, pass) = (k,isOnTop machine pass m,) <$> levelledIn machine pass m
           found = mapMaybe ofPass (zip [0 :: Int ..] passes)
-       in case ([m' | (k, _, m') <- found, Just k == before], [(k, m') | (k, False, m') <- found]) of
-            (same : _, _) -> (before, Just same)
+          same = [m' | (k, _, m') <- found, Just k == before]
+       in case (same, [(k, m') | (k, False, m') <- found]) of
+            (first : _, _) -> (before, Just first)
             ([], (k, first) : _) -> (Just k, Just first)
             ([], []) -> (Nothing, Nothing)
     fitted = IntSet.fromList (map number (catMaybes fitting))
@@ -95,7 +96,8 @@ isBelow machine asked level =
 isOnTop :: Machine -> TabbedPass -> CutterMotion -> Bool
 isOnTop machine pass m = all isThere [fromHeight m, toHeight m]
   where
-    isThere z = let Mm d = minus z (top pass) in Mm (abs d) <= Machine.resolutionOf machine Machine.Z
+    isThere z = let Mm d = minus z (top pass) in Mm (abs d) <= pulse
+    pulse = Machine.resolutionOf machine Machine.Z
 
 -- | A pass over tabs.
 data TabbedPass = TabbedPass

@@ -119,7 +119,8 @@ words' = do
       `shouldSatisfy` all' ["meet", "fillet", "smooth", "feed"]
   it "offers machines, cutters and their words" $ do
     labels "part p\nmachine ^" `shouldSatisfy` all' ["lkp-01f", "n55", "iso6983"]
-    labels "part p\ntool ^" `shouldBe` ["mill", "drill", "turn", "cone", "blade"]
+    labels "part p\ntool ^"
+      `shouldBe` ["mill", "drill", "tap", "threadmill", "turn", "cone", "blade"]
     labels "part p\ntool mill(^" `shouldBe` ["diameter"]
     labels "part p\ntool cone(diameter 6, ^" `shouldBe` ["bevel"]
   it "offers units after a number" $ do
