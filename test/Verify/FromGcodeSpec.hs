@@ -32,10 +32,10 @@ spec = do
     it "has G53 without an axis" $
       changed "bar" "G53 G0 Z0" "G53 G0" `gives` notRead 12 1 (WordMissing "Z0" "G53")
     it "may be left out by the operator" $
-      changed "bar" "G0 X15.000" "/G0 X15.000" `gives` notRead 22 1 (UnprovenWord "/")
+      changed "bar" "G0 X-5.000" "/G0 X-5.000" `gives` notRead 17 1 (UnprovenWord "/")
   describe "a fault of the state" $ do
     it "is a move to an unknown height, at the end of the file too" $
-      changedLast "bar" "G53 G0 Z0" "G53 G0 Z-50" `gives` Judged [(68, UnknownHeight)] 0
+      changedLast "bar" "G53 G0 Z0" "G53 G0 Z-50" `gives` Judged [(52, UnknownHeight)] 0
     it "is a change of the tool near the part" $
       changed "plate" "G53 G0 Z0\nM5\nM9\nT2" "M5\nM9\nT2" `givesFault` (31, LowChange)
     it "is a feed that G94 has set to 0" $
