@@ -142,7 +142,7 @@ spec = do
               Mm l = Curve.length c
               breaks = nub (sort (rows <> Curve.breaks c))
               byChords = sum (zipWith (chordsBetween c) breaks (drop 1 breaks))
-           in counterexample (show (l, byChords)) (abs (l - byChords) < 1e-6)
+           in counterexample (show (l, byChords)) (abs (l - byChords) < 1e-7)
     it "is exact for lines and arcs" $
       property $
         forAll Generate.toSegments $ \c ->

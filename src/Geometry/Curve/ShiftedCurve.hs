@@ -153,15 +153,18 @@ breaks curve = case curve of
 
 -- | Parameters, in ascending order, at which the distance of a shift changes from one cubic to the
 -- next, because it interpolates between the rows of a table. The tangent of the curve is continuous
--- there, but a higher derivative may jump. So the table of arc lengths has a new interval at each
--- of these parameters.
+-- there, but a higher derivative may jump. It may also jump where the continuation of a part beyond
+-- a corner ends. So the table of arc lengths has a new interval at each of these parameters.
 knots :: Curve -> [Double]
 knots curve = case curve of
   Unshifted _ -> []
   Shifted layer lower _ ->
-    raised
-      layer
-      (merge (knots lower) (filter isInside (ShiftDistance.knots (base lower) (distance layer))))
+    merge
+      (continuationEnds layer)
+      ( raised
+          layer
+          (merge (knots lower) (filter isInside (ShiftDistance.knots (base lower) (distance layer))))
+      )
   where
     isInside u = u > 0 && u < domain curve
 
@@ -354,6 +357,17 @@ raised layer us
         | otherwise -> Just (begin + (u - from) * ((end - begin) / (to - from)))
     concerns StretchedPart {begin, end} u = begin < u && u < end
 
+-- | Parameters of a shifted curve, in ascending order, at which the continuation of a part beyond a
+-- corner ends.
+continuationEnds :: Layer -> [Double]
+continuationEnds layer =
+  concat
+    [ [begin + (u - from) * ((end - begin) / (to - from)) | u <- [first, final], from < u, u < to]
+      | StretchedPart {begin, end, from, to, first, final} <- Map.elems parts
+    ]
+  where
+    StretchedParts parts = stretched layer
+
 -- | Stretched parts of the shift of a curve.
 stretchedParts :: Layer -> Curve -> StretchedParts
 stretchedParts layer lower
@@ -413,14 +427,14 @@ cutsAt layer lower c c'
     -- The sides are continued by less than the length of a span. False also for NaN.
     isBeside corner u = abs (u - corner) <= 1
     newton steps a b
-      | Mm (Vec.norm gap) <= Tolerance.crossing = Just (a, b)
-      | steps == 0 || abs (Vec.cross v w) <= 0 || not (isBeside c a && isBeside c' b) = Nothing
-      | otherwise =
-        newton
-          (steps - 1)
-          (a + Vec.cross gap w / Vec.cross v w)
-          (b + Vec.cross gap v / Vec.cross v w)
+      | Vec.norm gap <= 0 = Just (a, b)
+      | abs (Vec.cross v w) <= 0 || not (isBeside c a && isBeside c' b) = Nothing
+      -- A last step leaves no gap that the arc length would notice.
+      | Mm (Vec.norm gap) <= Tolerance.crossing = Just next
+      | steps == 0 = Nothing
+      | otherwise = uncurry (newton (steps - 1)) next
       where
+        next = (a + Vec.cross gap w / Vec.cross v w, b + Vec.cross gap v / Vec.cross v w)
         p = movedAt 1 layer lower (before a)
         q = movedAt 1 layer lower (after b)
         gap = Vec.to (TaylorExpansion.position p) (TaylorExpansion.position q)
