@@ -3,6 +3,7 @@ module Part.CutterBody
   ( Cylinder (..),
     cylindersOf,
     removalRadius,
+    widensUpwards,
     pointHeight,
     pointOf,
   )
@@ -35,6 +36,12 @@ removalRadius c = case kind c of
   TappingCutter -> Mm 0
   ThreadCutter _ -> Mm 0
   TurningCutter -> cutterRadius c
+
+-- | Test that a tool is a cone, whose radius nowhere falls with the height above the tip.
+widensUpwards :: Cutter -> Bool
+widensUpwards c = case kind c of
+  ConeCutter -> tipRadius c <= cutterRadius c
+  _ -> False
 
 -- | The height of the point of a drill; 0 for other tools.
 pointHeight :: Cutter -> Mm

@@ -299,12 +299,14 @@ rapidsIntoStock :: Facts -> [StockSolid] -> [Collision]
 rapidsIntoStock facts@Facts {subject, rapidFrames} solids =
   [ collisionOf facts m (Cylinder CutterPart (Mm 0) (Mm 0)) low top (StockLeft p)
     | not (null solids),
-      (k, m) <- zip [0 ..] (unlevelledMotions subject),
+      (k, before, m) <- zip3 [0 ..] (Nothing : map Just ms) ms,
       IntSet.member (number m) rapidFrames,
+      not (any (risesInItsCut facts m) before),
       fst (bounds m) < highestTop,
       (low, top, p) <- take 1 (contacts k m)
   ]
   where
+    ms = unlevelledMotions subject
     highestTop = foldl' max (Mm (-1 / 0)) (map Stock.top solids)
     index = BoxTree.index boxOf solids
     boxOf = Stock.boxOfSolid
@@ -319,6 +321,18 @@ rapidsIntoStock facts@Facts {subject, rapidFrames} solids =
           Just p <-
             [Stock.remaining removals solid (Probe k part r (plus low (allowedHeight facts)) t)]
       ]
+
+-- | Test that a motion goes straight up from the end of the motion before it, with the same cone.
+-- No part of a cone is wider than the parts above it, so it leaves by the space that it cut.
+risesInItsCut :: Facts -> CutterMotion -> CutterMotion -> Bool
+risesInItsCut facts m before =
+  Segment.start (segment m) == Segment.end (segment m)
+    && Segment.end (segment before) == Segment.start (segment m)
+    && fromHeight m == toHeight before
+    && toHeight m >= fromHeight m
+    && case (toolsIn facts (number before), toolsIn facts (number m)) of
+      ([(t0, _)], [(t, c)]) -> t0 == t && CutterBody.widensUpwards c
+      _ -> False
 
 -- | Largest radius, and radius within which stock is surely removed, of a cutter in a motion. They
 -- differ only for conical cutters and blades.
