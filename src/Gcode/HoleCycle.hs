@@ -2,6 +2,7 @@
 -- expansion of a cycle is exactly the same.
 module Gcode.HoleCycle
   ( FoundCycle (..),
+    AfterTap (..),
     TapNeed (..),
     found,
   )
@@ -10,8 +11,9 @@ where
 import Base.PulseVector (Pulses3 (..))
 import Base.Quantity (Mm (..), Pulses (..), Seconds (..))
 import Data.List (find)
-import Data.Maybe (isJust, listToMaybe, mapMaybe)
+import Data.Maybe (isJust, listToMaybe)
 import Frame.Frame (Frame (..), FrameMotion (..), PlannedFrame (..), Role (..))
+import Gcode.ControlAction (SpindleWords)
 import Gcode.Cycle (CycleForm (..), CycleStep (..))
 import Gcode.Cycle qualified as Cycle
 import Gcode.ModalState (CannedCycle (..))
@@ -36,14 +38,18 @@ data FoundCycle = FoundCycle
     feed :: FeedCode,
     -- | position over the hole, before the cycle and after it
     over :: Pulses3,
-    -- | the words of the spindle that the next frame has, because a tap turned the spindle back;
-    -- the control starts it forward again by itself
-    restored :: Maybe [(CommandName, Int)],
+    -- | the spindle after a tap
+    afterTap :: Maybe AfterTap,
     -- | the tap, if it is one
     tap :: Maybe TapNeed,
     -- | the frames after those of the cycle
     others :: [PlannedFrame]
   }
+
+-- | Spindle words after a tap. In the frames the spindle turns back until a frame turns it forward;
+-- the control turns it forward at once.
+data AfterTap = AfterTap {byControl :: SpindleWords, ofFrames :: SpindleWords}
+  deriving stock (Eq, Show)
 
 -- | Tap of a block: its pitch, and true if it is in a floating holder.
 data TapNeed = TapNeed {tapPitch :: Mm, isFloating :: Bool}
@@ -57,7 +63,7 @@ found ::
   Machine ->
   ProgramForm ->
   (Int -> Maybe TapNeed) ->
-  (Pulses3, Maybe [(CommandName, Int)]) ->
+  (Pulses3, Maybe SpindleWords) ->
   [PlannedFrame] ->
   Maybe FoundCycle
 found machine program taps (at, byItself) frames = case frames of
@@ -105,11 +111,16 @@ fitting machine program tap from@(Pulses3 _ _ top) made rest = do
     [] -> Nothing
   cycle' <- find ((== steps) . filter (/= Forward) . Cycle.steps) (candidates steps)
   if all (== code) feeds
-    then Just FoundCycle {form = cycle', feed = code, over = from, restored, tap, others = rest}
+    then Just FoundCycle {form = cycle', feed = code, over = from, afterTap, tap, others = rest}
     else Nothing
   where
     increments = map increment made
-    restored = listToMaybe (mapMaybe (fmap snd . turnedBack machine . commands) made)
+    afterTap =
+      listToMaybe
+        [ AfterTap {byControl = forward, ofFrames = commands f}
+          | f <- made,
+            Just (_, forward) <- [turnedBack machine (commands f)]
+        ]
     candidates steps =
       [ CycleForm
           { canned = c,

@@ -15,7 +15,7 @@ import Base.Decimal qualified as Decimal
 import Base.PulseVector (Pulses2 (..), Pulses3 (..))
 import Base.Quantity (LengthUnit (..), Mm (..), Pulses (..))
 import Data.Map.Strict qualified as Map
-import Data.Maybe (fromMaybe, isJust, isNothing, listToMaybe, mapMaybe, maybeToList)
+import Data.Maybe (isJust, isNothing, listToMaybe, mapMaybe, maybeToList)
 import Data.Set qualified as Set
 import Data.Text (Text)
 import Data.Text qualified as Text
@@ -23,11 +23,12 @@ import Frame.Command qualified as Command
 import Frame.Frame (Frame (..), FrameMotion (..), FrameProgram (..), PlannedFrame (..), passNumber)
 import Frame.Frame qualified as Frame
 import Gcode.CommentText qualified as CommentText
+import Gcode.ControlAction (ControlAction (..), actionsOf, setsSpindle)
 import Gcode.Cycle qualified as Cycle
 import Gcode.FileTime qualified as FileTime
 import Gcode.Heading (FileHeading (..))
 import Gcode.Heading qualified as Heading
-import Gcode.HoleCycle (FoundCycle)
+import Gcode.HoleCycle (AfterTap, FoundCycle)
 import Gcode.HoleCycle qualified as HoleCycle
 import Gcode.ModalState (CannedCycle (..))
 import Gcode.ToolTip qualified as ToolTip
@@ -36,7 +37,6 @@ import Geometry.Carrier qualified as Carrier
 import Machine.Machine
   ( Axis (..),
     CommandName,
-    CommandValue (..),
     CommandWord (..),
     CommandWords (..),
     Content (..),
@@ -72,8 +72,8 @@ data Writing = Writing
     isInside :: Bool,
     -- | the canned cycle in force, and its words that stay
     cycleNow :: Maybe (CannedCycle, [Text]),
-    -- | spindle words of the next frame that the control carries out by itself, after a tap
-    restored :: Maybe CommandWordsText
+    -- | spindle words after a tap
+    afterTap :: Maybe AfterTap
   }
 
 -- | Files of a program. @bound@ is the largest deviation in mm from the path that the control may
@@ -178,7 +178,7 @@ fileLines context number part =
           tipOffset = tipOf context (toolOf part),
           isInside = False,
           cycleNow = Nothing,
-          restored = Nothing
+          afterTap = Nothing
         }
 
 -- | Position at which the tool comes down first: after a rapid move straight up, if that is the
@@ -350,9 +350,23 @@ commandText machine (name, n) = scaledText machine (Machine.Command name) (Pulse
 
 -- Frames ------------------------------------------------------------------------------------------
 
--- | Lines of the frames, and the state after them.
+-- | Lines of the frames, and the state after them. Frames that go on with the spindle turned back
+-- after a tap have a line for it.
 frameLines :: Context -> Writing -> [PlannedFrame] -> (Writing, [Text])
-frameLines context now frames = case frames of
+frameLines context now frames = case (afterTap now, frames) of
+  (Just tapped, PlannedFrame {frame = f} : _)
+    | not (any setsSpindle (actionsOf (machine context) f)) ->
+      let turn = Turning (HoleCycle.ofFrames tapped)
+          (turned, own) = actionLine context now {cycleNow = Nothing, afterTap = Nothing} turn
+          (final, behind) = inForce turned
+       in (final, ["G80" | isJust (cycleNow now)] <> own <> behind)
+  _ -> inForce now
+  where
+    inForce now' = linesInForce context now' frames
+
+-- | Lines of frames for which the spindle turns as they ask.
+linesInForce :: Context -> Writing -> [PlannedFrame] -> (Writing, [Text])
+linesInForce context now frames = case frames of
   [] -> (ended, stop)
   _
     | not (isAway now),
@@ -366,7 +380,7 @@ frameLines context now frames = case frames of
       not (null (commands f)) ->
       let (commanded, before) = actionLines context ended (actionsOf (machine context) f)
           bare = p {frame = f {commands = []}}
-          (final, behind) = frameLines context commanded {restored = Nothing} (bare : more)
+          (final, behind) = frameLines context commanded {afterTap = Nothing} (bare : more)
        in (final, stop <> before <> behind)
     | isSink f && isAway now,
       isJust (HoleCycle.found (machine context) (form context) taps before' frames) ->
@@ -375,12 +389,12 @@ frameLines context now frames = case frames of
        in (final, descentLines context now <> behind)
   p@PlannedFrame {frame = f} : more ->
     let (commanded, before) = actionLines context ended (actionsOf (machine context) f)
-        (moved, own) = motionLines context commanded {restored = Nothing} f
+        (moved, own) = motionLines context commanded {afterTap = Nothing} f
         (final, behind) = frameLines context moved {isInside = isInsideAt p moved} more
      in (final, stop <> before <> own <> behind)
   where
     taps n = Map.lookup n (tapNeeds (heading context))
-    before' = (at now, restored now)
+    before' = (at now, HoleCycle.byControl <$> afterTap now)
     stop = ["G80" | isJust (cycleNow now)]
     ended = now {cycleNow = Nothing}
     isSink f = case increment f of
@@ -426,54 +440,9 @@ cycleLines context@Context {machine, form} now c =
         { at = HoleCycle.over c,
           isCoolantPaused = False,
           cycleNow = if isSynchronous then Nothing else Just (cycle', sizeWords),
-          restored = HoleCycle.restored c,
+          afterTap = HoleCycle.afterTap c,
           feedWritten = if isSynchronous then feedWritten now else Just (HoleCycle.feed c)
         }
-
--- | Meaning of the commands of a frame.
-data ControlAction
-  = ToTool Int
-  | Turning CommandWordsText
-  | StopSpindle
-  | CoolantSwitch Bool
-  | OtherCommand (CommandName, Int)
-
--- | Words of a command with their numbers.
-type CommandWordsText = [(CommandName, Int)]
-
--- | Meanings of the commands of a frame, in the order in which the control has to carry them out.
-actionsOf :: Machine -> Frame -> [ControlAction]
-actionsOf machine f = go (commands f) candidates
-  where
-    table = Machine.commandWords machine
-    candidates =
-      [ (toolChange table, ToTool . argumentOf (toolChange table)),
-        (spindleClockwise table, Turning),
-        (spindleCounterClockwise table, Turning),
-        (surfaceClockwise table, Turning),
-        (surfaceCounterClockwise table, Turning),
-        (spindleOff table, const StopSpindle),
-        (coolantOn table, const (CoolantSwitch True)),
-        (coolantOff table, const (CoolantSwitch False))
-      ]
-    go left list = case list of
-      [] -> map OtherCommand left
-      (ws, make) : more
-        | not (null ws),
-          Just found <- traverse (`numberIn` left) ws ->
-          make found : go (filter (`notElem` found) left) more
-        | otherwise -> go left more
-    numberIn w left = case lookup (commandName w) left of
-      Just n | isNumberOf n (value w) -> Just (commandName w, n)
-      _ -> Nothing
-    isNumberOf n v = case v of
-      Fixed k -> k == n
-      SurfaceSpeed _ -> True
-      _ -> v `elem` [Argument, SpeedLimit]
-    argumentOf ws found = fromMaybe 0 (listToMaybe (mapMaybe (argumentIn found) ws))
-    argumentIn found w
-      | value w == Argument = lookup (commandName w) found
-      | otherwise = Nothing
 
 -- | Lines of commands.
 actionLines :: Context -> Writing -> [ControlAction] -> (Writing, [Text])
@@ -499,7 +468,7 @@ actionLine context@Context {machine, form, heading} now action = case action of
         <> ["M9" | hasCoolant now]
         <> toolLines context (Just n)
     )
-  Turning ws | Just ws == restored now -> (now {turns = True}, [])
+  Turning ws | Just ws == (HoleCycle.byControl <$> afterTap now) -> (now {turns = True}, [])
   Turning ws ->
     ( now {turns = True},
       [turnLine, dwellLine form (spinUp form)]
