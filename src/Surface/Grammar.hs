@@ -378,12 +378,13 @@ settingForms =
     ("rest", RestAllowed <$ keyword "allowed")
   ]
 
--- | The width, the height and the angle of the sides of tabs.
+-- | The width, the height and the angle of the sides of tabs. An @angle@ on the next line is a
+-- setting of its own.
 tabSizes :: Grammar p => (Expr -> Expr -> Maybe Expr -> a) -> p a
 tabSizes tabs =
   tabs <$> (keyword "width" *> expr)
     <*> (keyword "height" *> expr)
-    <*> Parsec.optional (keyword "angle" *> expr)
+    <*> Parsec.optional (onThisLine (keyword "angle" *> expr))
 
 -- | One or more points. Each may have the pace of the motion to it: @rapid@ or a feed.
 stops :: Parser (NonEmpty Stop)
