@@ -42,8 +42,10 @@ data Control = Control
     blending :: Maybe Double,
     isRadius :: Maybe Bool,
     isPlain :: Maybe Bool,
-    -- | 0 to 3
-    way :: Maybe Int
+    -- | 0 to 3, or the number of a canned cycle
+    way :: Maybe Int,
+    -- | 98 or 99: the height at the end of a canned cycle
+    returns :: Maybe Int
   }
   deriving stock (Eq, Show)
 
@@ -67,7 +69,15 @@ data Event
   deriving stock (Eq, Show)
 
 -- | State between lines.
-data Run = Run {control :: Control, place :: Place, isStarting :: Bool, isOver :: Bool}
+data Run = Run
+  { control :: Control,
+    place :: Place,
+    isStarting :: Bool,
+    isOver :: Bool,
+    -- | in a canned cycle: the height before it, and the words that stay, in mm and seconds
+    cycleBegin :: Maybe Double,
+    cycleWords :: [(Char, Double)]
+  }
 
 -- | Events of a file, or the reason why nobody may run it.
 trace :: [String] -> Either String [Event]
@@ -76,7 +86,7 @@ trace file = do
   unless (isOver end) (Left "the program does not end")
   pure (reverse events)
   where
-    begin = Run nothing [Nothing, Nothing, Nothing] False False
+    begin = Run nothing [Nothing, Nothing, Nothing] False False Nothing []
     nothing =
       Control
         { isMetric = Nothing,
@@ -95,7 +105,8 @@ trace file = do
           blending = Nothing,
           isRadius = Nothing,
           isPlain = Nothing,
-          way = Nothing
+          way = Nothing,
+          returns = Nothing
         }
     step (now, events) (n, line)
       | isOver now = Right (now, events)
@@ -124,7 +135,7 @@ wordsOf line
     go text = case text of
       "" -> Right []
       c : rest
-        | c `elem` ("GMNXYZIJFSTHPQD" :: String) ->
+        | c `elem` ("GMNXYZIJFSTHPQRD" :: String) ->
           let (number, after) = span (`elem` ("+-.0123456789" :: String)) rest
            in case readMaybe (haskell number) of
                 Just v -> ((c, v) :) <$> go after
@@ -140,7 +151,8 @@ wordsOf line
 -- | Words of which a line may have only one.
 groups :: [[(Char, Double)]]
 groups =
-  [ map ('G',) [0, 1, 2, 3, 80],
+  [ map ('G',) (80 : 0 : 1 : 2 : 3 : map fromIntegral cannedCycles),
+    map ('G',) [98, 99],
     map ('G',) [17, 18, 19],
     map ('G',) [90, 91],
     map ('G',) [90.1, 91.1],
@@ -158,6 +170,14 @@ groups =
     map ('M',) [7, 8, 9]
   ]
 
+-- | Canned cycles in the plane of x and y: chip breaking, drilling, drilling with a pause, pecking,
+-- and boring with a feed out.
+cannedCycles :: [Int]
+cannedCycles = [73, 81, 82, 83, 85]
+
+isCanned :: Control -> Bool
+isCanned c = maybe False (`elem` cannedCycles) (way c)
+
 -- | Runs the words of a line, in the order in which the control takes them.
 runLine :: Int -> [(Char, Double)] -> Run -> Either String (Run, [Event])
 runLine n ws now = do
@@ -170,7 +190,13 @@ runLine n ws now = do
   when (map fst values /= nub (map fst values)) (Left "a letter twice")
   let changed = afterChange has value (control now)
       c = afterModes has value changed
-      moved = displaced (control now) c now {control = c}
+      moved =
+        displaced (control now) c $
+          now
+            { control = c,
+              cycleBegin = if isCanned c then cycleBegin now else Nothing,
+              cycleWords = if way c == way (control now) then cycleWords now else []
+            }
       users = userLetters has c
   when (any ((`notElem` users) . fst) values) (Left "a word that nothing uses")
   when (has ('G', 4) && isNothing (value 'P')) (Left "a dwell without its time")
@@ -198,7 +224,10 @@ userLetters has c =
             [ (has ('G', 43), "H"),
               (has ('G', 4) /= has ('G', 64), "P"),
               (has ('G', 64), "Q"),
-              (way c `elem` [Just 2, Just 3], "IJ")
+              (way c `elem` [Just 2, Just 3], "IJ"),
+              (isCanned c, "R"),
+              (way c `elem` map Just [82, 89], "P"),
+              (way c `elem` map Just [73, 83], "Q")
             ]
       ]
 
@@ -237,7 +266,8 @@ afterModes has value c =
       isAbsolute = flag 90 91 (isAbsolute c),
       hasAbsoluteCentres = flag 90.1 91.1 (hasAbsoluteCentres c),
       feedWay = pick 'G' [93, 94, 95] (feedWay c),
-      way = if has ('G', 80) then Nothing else pick 'G' [0 .. 3] (way c)
+      way = if has ('G', 80) then Nothing else pick 'G' ([0 .. 3] <> cannedCycles) (way c),
+      returns = pick 'G' [98, 99] (returns c)
     }
   where
     newCoolants = [m | m <- [7, 8], has ('M', fromIntegral m)]
@@ -280,6 +310,7 @@ moveOf n has values now
   | otherwise = case way c of
     Nothing -> Left "no kind of motion"
     Just k
+      | isCanned c -> cannedMoves n values now
       | has ('G', 53) && (k > 1 || isAbsolute c /= Just True) -> Left "G53 needs G0 and G90"
       | k > 0 && feed c `elem` [Nothing, Just 0] -> Left "no feed"
       | otherwise -> do
@@ -311,3 +342,61 @@ moveOf n has values now
     centreAlong letter from
       | hasAbsoluteCentres c == Just True = maybe from (* unit) (lookup letter values)
       | otherwise = from + unit * fromMaybe 0 (lookup letter values)
+
+-- | Moves of a canned cycle, as the manual of LinuxCNC gives them. Only cycles in mm with absolute
+-- positions are understood.
+cannedMoves :: Int -> [(Char, Double)] -> Run -> Either String (Run, [Event])
+cannedMoves n values now = case place now of
+  [Just x0, Just y0, Just z0] -> do
+    mapM_ (\(isWrong, why) -> when isWrong (Left why)) unfit
+    bottom <- sizeOf 'Z'
+    r <- sizeOf 'R'
+    pause <- if code == 82 then sizeOf 'P' else Right 0
+    peck <- if code `elem` [73, 83] then sizeOf 'Q' else Right 1
+    let begin = fromMaybe z0 (cycleBegin now)
+        end = if returns c == Just 98 then max begin r else r
+        (x, y) = (fromMaybe x0 (lookup 'X' values), fromMaybe y0 (lookup 'Y' values))
+        over = [(0, [x0, y0, r]) | z0 < r] <> [(0, [x, y, max z0 r]), (0, [x, y, r])]
+        (down, up) = cycleHeights code (r, bottom, peck)
+        at z = [x, y, z]
+        atBottom = over <> map (fmap at) down
+        (before, place') = chain n c [x0, y0, z0] atBottom
+        (after, _) = chain n c place' (map (fmap at) up <> [(0, at end)])
+    when (isNothing (returns c) && begin > r) (Left "a cycle to an unknown height")
+    when (r < bottom || peck <= 0 || pause < 0) (Left "a cycle with wrong sizes")
+    Right
+      ( now {place = map Just (at end), cycleBegin = Just begin, cycleWords = sizes},
+        before <> [Waits pause False | code == 82] <> after
+      )
+  _ -> Left "a cycle from nowhere"
+  where
+    c = control now
+    code = fromMaybe 0 (way c)
+    sizes = [v | v@(letter, _) <- values, letter `elem` ("ZRPQ" :: String)] <> cycleWords now
+    sizeOf letter = maybe (Left ("a cycle without " <> [letter])) Right (lookup letter sizes)
+    unfit =
+      [ (isMetric c /= Just True || isAbsolute c /= Just True, "a cycle in other units"),
+        (plane c /= Just 17, "a cycle in another plane"),
+        (feed c `elem` [Nothing, Just 0], "no feed"),
+        (turns c `notElem` [Just 3, Just 4], "a cycle without the spindle")
+      ]
+
+-- | Heights of a canned cycle down to the bottom, and up to R, each with 0 for a rapid move or 1
+-- for a feed. LinuxCNC returns to 0.01 inch above the last peck.
+cycleHeights :: Int -> (Double, Double, Double) -> ([(Int, Double)], [(Int, Double)])
+cycleHeights code (r, bottom, peck) = (concatMap between pecks <> [(1, bottom)], [(out, r)])
+  where
+    out = if code == 85 then 1 else 0
+    pecks
+      | code `elem` [73, 83] = takeWhile (> bottom) (drop 1 (iterate (subtract peck) r))
+      | otherwise = []
+    between z = (1, z) : [(0, r) | code == 83] <> [(0, z + 0.254)]
+
+-- | Straight moves from one position to the next, without those to the same position, and the last
+-- position.
+chain :: Int -> Control -> [Double] -> [(Int, [Double])] -> ([Event], [Double])
+chain n c from list = case list of
+  [] -> ([], from)
+  (k, to) : rest ->
+    let (events, final) = chain n c to rest
+     in ([Moves n k (map Just from) (map Just to) Nothing c | to /= from] <> events, final)
