@@ -242,16 +242,19 @@ pathDeviation path contour radius =
     nearest ps q =
       sqrt (minimum [(Vec.x p - Vec.x q) ^ (2 :: Int) + (Vec.y p - Vec.y q) ^ (2 :: Int) | p <- ps])
 
--- | Points of a segment with its ends, at most @apart@ mm from one another, and on an arc also at
--- most an eighth of a turn: a short arc may have a large sweep.
+-- | Points of a segment with its ends, at most @apart@ mm from one another. On an arc they are also
+-- at most an eighth of a turn apart, because a short arc may have a large sweep, and so near that
+-- the arc is nowhere further than 0.0003 mm from the tangent at the nearest point.
 dense :: Double -> Segment -> [Point]
 dense apart s = [Segment.at (fromIntegral k / fromIntegral n) s | k <- [0 .. n]]
   where
     Mm l = Segment.length s
-    n = max 1 (max (ceiling (l / apart)) turns) :: Int
-    turns = case s of
+    n = max 1 (max (ceiling (l / apart)) onArc) :: Int
+    onArc = case s of
       Straight _ _ -> 1
-      Arc {Segment.sweep = Rad sweep} -> ceiling (abs sweep * 4 / pi)
+      Arc {Segment.start = a, Segment.centre = c, Segment.sweep = Rad sweep} ->
+        let Mm r = Vec.distance a c
+         in ceiling (max (abs sweep * 4 / pi) (l / sqrt (0.0024 * max 0.001 r)))
 
 -- | Frames with one random mistake, and a description of the mistake.
 change :: [Frame] -> Gen (String, [Frame])
