@@ -159,12 +159,8 @@ knots :: Curve -> [Double]
 knots curve = case curve of
   Unshifted _ -> []
   Shifted layer lower _ ->
-    merge
-      (continuationEnds layer)
-      ( raised
-          layer
-          (merge (knots lower) (filter isInside (ShiftDistance.knots (base lower) (distance layer))))
-      )
+    let ofDistance = filter isInside (ShiftDistance.knots (base lower) (distance layer))
+     in merge (continuationEnds layer) (raised layer (merge (knots lower) ofDistance))
   where
     isInside u = u > 0 && u < domain curve
 
