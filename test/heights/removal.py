@@ -67,13 +67,31 @@ def edges_of(area):
     return found
 
 
-def without(path, places, half):
-    """The pieces of a closed path that are further than `half` from places on it."""
+def half_of(path, place, wide):
+    """Half of the stretch about a place of a closed path whose ends are so far from each other."""
+    if wide == 0:
+        return 0.0
+    least, most = wide / 2, min(wide, path.length / 2)
+
+    def end(s):
+        return path.interpolate(s % path.length)
+
+    for _ in range(40):
+        half = (least + most) / 2
+        is_short = end(place - half).distance(end(place + half)) < wide
+        least, most = (half, most) if is_short else (least, half)
+    return least
+
+
+def without(path, places, wide, more):
+    """The pieces of a closed path outside of the stretches about places on it that are `wide`,
+    measured straight, and the length `more` at both ends."""
     length = path.length
     places = sorted(places)
+    halves = [half_of(path, place, wide) + more for place in places]
     found = []
-    for a, b in zip(places, places[1:] + [places[0] + length]):
-        first, last = a + half, b - half
+    for k, (a, b) in enumerate(zip(places, places[1:] + [places[0] + length])):
+        first, last = a + halves[k], b - halves[(k + 1) % len(places)]
         if last <= first:
             continue
         first, last = first % length, first % length + last - first
@@ -148,7 +166,7 @@ class Judged:
         height = claim.others["height"]
         slack = works.MARGIN
         if places is None:
-            places, slack = self._found(claim), 2 * TAB_STEP
+            places, slack = self._found(claim), 2 * TAB_STEP + 0.03
             if len(places) != claim.others["count"]:
                 text = f"{claim.what}: {len(places)} tabs, not {claim.others['count']}"
                 self.faults.append(("tabs that are wrong", text))
@@ -158,12 +176,12 @@ class Judged:
         self._may_to(claim.area, top)
         self._must_to(claim.area, top)
         bases = [
-            without(path, places, claim.others["width"] / 2 + r
-                    + (1 - share) * height / math.tan(math.radians(claim.others["angle"])))
+            without(
+                path, places, claim.others["width"] + 2 * r,
+                (1 - share) * height / math.tan(math.radians(claim.others["angle"])),
+            )
             for share in LEVELS
         ]
-        # On an arc, a chord of the cutter's radius is a little shorter than the arc.
-        slack += 0.03
         for share, base in zip(LEVELS, bases):
             self._must_to(covered(base, r - slack), claim.z + share * height)
         for share, base in zip(LEVELS, bases[1:]):
@@ -334,7 +352,7 @@ class Trial:
             for name in os.listdir(out):
                 with open(os.path.join(out, name), encoding="utf-8") as file:
                     texts.append((name, file.read()))
-            texts.sort(key=lambda t: int((re.search(r"\(file: (\d+) of", t[1]) or [0, 0])[1]))
+            texts.sort(key=lambda t: int((re.search(r"file: (\d+) of", t[1]) or [0, 0])[1]))
             self.files = [os.path.join(out, name) for name, _ in texts]
             texts = [text for _, text in texts]
             status, errors = collisions.run(self.given.partc, "verify", self.program, *self.files)
