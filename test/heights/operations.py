@@ -267,19 +267,26 @@ class Cloud:
             crossings = numpy.sort(crossed(a, b, y))
             odd = numpy.searchsorted(crossings, columns) % 2 == 1
             found.append(base + numpy.flatnonzero(odd))
-        further = at[at >= self.count]
-        for some in numpy.array_split(further, max(1, further.size // 2000)):
-            x, y = self.x[some][:, None], self.y[some][:, None]
-            is_between = (a[:, 1] > y) != (b[:, 1] > y)
-            rise = numpy.where(a[:, 1] == b[:, 1], 1, b[:, 1] - a[:, 1])
-            crosses = is_between & (x < a[:, 0] + (y - a[:, 1]) * (b[:, 0] - a[:, 0]) / rise)
-            found.append(some[crosses.sum(1) % 2 == 1])
+        found.append(self._further_inside(a, b, at[at >= self.count]))
         return numpy.concatenate(found) if found else numpy.zeros(0, int)
+
+    def _further_inside(self, a, b, some):
+        """Those of some further points that are inside edges."""
+        some = some[numpy.argsort(self.y[some])]
+        x, y = self.x[some], self.y[some]
+        is_in = numpy.zeros(some.shape, bool)
+        firsts = numpy.searchsorted(y, numpy.minimum(a[:, 1], b[:, 1]), "right")
+        lasts = numpy.searchsorted(y, numpy.maximum(a[:, 1], b[:, 1]), "right")
+        for k in numpy.flatnonzero(firsts < lasts):
+            there = slice(firsts[k], lasts[k])
+            slope = (b[k, 0] - a[k, 0]) / (b[k, 1] - a[k, 1])
+            is_in[there] ^= x[there] < a[k, 0] + (y[there] - a[k, 1]) * slope
+        return some[is_in]
 
 
 def crossed(a, b, y):
     """Places at which a line along x crosses edges."""
-    k = (a[:, 1] > y) != (b[:, 1] > y)
+    k = (a[:, 1] >= y) != (b[:, 1] >= y)
     a, b = a[k], b[k]
     return a[:, 0] + (y - a[:, 1]) * (b[:, 0] - a[:, 0]) / (b[:, 1] - a[:, 1])
 

@@ -35,6 +35,7 @@ from shapely.ops import substring, unary_union
 import collisions
 import heights
 import operations
+import shapes
 import works
 
 MACHINES = ("linuxcnc-mill", "grbl", "iso6983", "haas", "fanuc", "marlin")
@@ -103,7 +104,7 @@ def without(path, places, wide, more):
 
 def covered(line, radius):
     """What a disc covers along a line."""
-    return line.buffer(radius, works.SEGMENTS)
+    return line.buffer(radius, shapes.SEGMENTS)
 
 
 class Judged:
@@ -134,11 +135,11 @@ class Judged:
         ]
 
     def _may_to(self, area, z):
-        at = self.cloud.inside(works.grown(area, works.MARGIN))
+        at = self.cloud.inside(shapes.grown(area, works.MARGIN))
         self.floor[at] = numpy.minimum(self.floor[at], z)
 
     def _must_to(self, area, z):
-        at = self.cloud.inside(works.grown(area, -works.MARGIN))
+        at = self.cloud.inside(shapes.grown(area, -works.MARGIN))
         self.whose[at[self.least[at] > z]] = self.index
         self.least[at] = numpy.minimum(self.least[at], z)
 
@@ -229,10 +230,10 @@ def cloud_of(part, cell):
     for claim in part.claims:
         area, signs = claim.area, {"may": (1,), "must": (-1,)}.get(claim.kind, (1, -1))
         if claim.kind == "hole":
-            area = works.grown(Point(area), claim.others["radius"])
+            area = shapes.grown(Point(area), claim.others["radius"])
             found.append(claim.area)
         for sign in signs:
-            found += edges_of(works.grown(area, sign * near))
+            found += edges_of(shapes.grown(area, sign * near))
     for claim in part.claims:
         if claim.kind == "tabs":
             path = claim.others["path"]
@@ -250,7 +251,10 @@ def cloud_of(part, cell):
 
 def motions_of(part, texts):
     """The motions of a part's files."""
-    order = part.order if len(texts) > 1 else part.order[:1]
+    order = part.order[:1]
+    if len(texts) > 1:
+        # Each file names its tool. One in which nothing is cut has no file.
+        order = [int(re.search(r"tool (\d+):", text).group(1)) for text in texts]
     start = (-20, -20, part.clearance)
     return operations.motions_of(list(zip(texts, order)), start)
 

@@ -14,38 +14,20 @@ by the disc of the mill, a hole is a circle. Each operation makes *claims*:
 
 import math
 
-import numpy
-from shapely.geometry import LineString, MultiPolygon, Point, Polygon, box
-from shapely.ops import substring, unary_union
+from shapely.geometry import LineString, MultiPoint, MultiPolygon, Point, Polygon, box
+from shapely.ops import unary_union
+
+from shapes import (
+    bracket, circle, grown, opened, point, pointed, rectangle, rounded, rounded_rectangle, slot
+)
 
 # Distance in mm from an edge within which nothing is certain: a tolerance, a pulse, and the chords
 # of Shapely.
 MARGIN = 0.022
 # The same for heights.
 HAIR = 0.004
-SEGMENTS = 64
 CELL = 24
 POINT = 118
-
-
-def grown(area, by):
-    """An area, grown by a distance with round corners."""
-    return area.buffer(by, SEGMENTS)
-
-
-def opened(area, radius, less=0.0):
-    """What a disc covers that stays in an area. The area counts as smaller by `less`."""
-    return grown(grown(area, -radius - less), radius)
-
-
-def rounded(rng, least, most, step=0.5):
-    """A random number in steps."""
-    return round(round(rng.uniform(least, most) / step) * step, 4)
-
-
-def point(p):
-    """A point in a program."""
-    return "(" + ", ".join(f"{c:g}" for c in p) + ")"
 
 
 class Claim:
@@ -54,70 +36,6 @@ class Claim:
     def __init__(self, kind, what, area, z, slope=0.0, **others):
         self.kind, self.what, self.area, self.z, self.slope = kind, what, area, z, slope
         self.others = others
-
-
-class Shape:
-    """A closed shape: its text, its area, and the points at which a cut of it may begin, each in the
-    middle of a straight side, or anywhere on a circle."""
-
-    def __init__(self, text, area, sides, radius):
-        # radius: that of the smallest concave arc seen from inside.
-        self.text, self.area, self.sides, self.radius = text, area, sides, radius
-
-
-def polygon_shape(corners, text=None):
-    """A polygon, counter-clockwise."""
-    sides = list(zip(corners, corners[1:] + corners[:1]))
-    text = text or "polygon([" + ", ".join(point(p) for p in corners) + "])"
-    return Shape(text, Polygon(corners), sides, 0)
-
-
-def rectangle(x, y, w, h):
-    """A rectangle about a centre."""
-    a, b = (x - w / 2, y - h / 2), (x + w / 2, y + h / 2)
-    text = f"rectangle({point(a)}, {point(b)})"
-    return polygon_shape([a, (b[0], a[1]), b, (a[0], b[1])], text)
-
-
-def rounded_rectangle(x, y, w, h, r):
-    """A rectangle with round corners about a centre."""
-    a, b = (x - w / 2, y - h / 2), (x + w / 2, y + h / 2)
-    area = grown(box(a[0] + r, a[1] + r, b[0] - r, b[1] - r), r)
-    sides = [
-        ((a[0] + r, a[1]), (b[0] - r, a[1])), ((b[0], a[1] + r), (b[0], b[1] - r)),
-        ((b[0] - r, b[1]), (a[0] + r, b[1])), ((a[0], b[1] - r), (a[0], a[1] + r)),
-    ]
-    return Shape(f"rounded({point(a)}, {point(b)}, {r:g})", area, sides, r)
-
-
-def slot(x, y, length, width):
-    """A slot along x."""
-    a, b, r = (x - length / 2, y), (x + length / 2, y), width / 2
-    sides = [((a[0], y - r), (b[0], y - r)), ((b[0], y + r), (a[0], y + r))]
-    area = grown(LineString([a, b]), r)
-    return Shape(f"slot({point(a)}, {point(b)}, {width:g})", area, sides, r)
-
-
-def circle(x, y, r):
-    """A circle."""
-    return Shape(f"ccw circle({point((x, y))}, {r:g})", grown(Point(x, y), r), [], r)
-
-
-def bracket(x, y, w, h, cut):
-    """A rectangle without its upper right corner."""
-    a, b = (x - w / 2, y - h / 2), (x + w / 2, y + h / 2)
-    return polygon_shape([
-        a, (b[0], a[1]), (b[0], b[1] - cut), (b[0] - cut, b[1] - cut), (b[0] - cut, b[1]), (a[0], b[1])
-    ])
-
-
-def pointed(x, y, w, h, cut):
-    """A rectangle with two corners cut off."""
-    a, b = (x - w / 2, y - h / 2), (x + w / 2, y + h / 2)
-    return polygon_shape([
-        (a[0] + cut, a[1]), (b[0], a[1]), (b[0], b[1] - cut), (b[0] - cut, b[1]), (a[0], b[1]),
-        (a[0], a[1] + cut),
-    ])
 
 
 class Part:
@@ -241,6 +159,10 @@ class Part:
         if side == "inside" and shape.radius < r:
             what += ", rest allowed"
         if centre.is_empty or isinstance(centre, MultiPolygon):
+            # A hole instead, so that no tool is taken for nothing.
+            x, y = shape.area.centroid.coords[0]
+            self.body.append(f"drill at {point((x, y))} depth 1")
+            self._hole("drill", [(x, y)], r, 1)
             return
         name = self._contour(shape.text)
         path = LineString(centre.exterior.coords)
@@ -312,7 +234,12 @@ class Part:
         if way == "lead" or rng.random() < 0.4:
             lead = rounded(rng, 0.5, 1.5 * r, 0.25)
             words += f" lead {rng.choice(['in', 'out'])} {rng.choice(['line', 'arc'])} {lead:g}"
-            near.append(grown(Point(start), 1.5 * lead + 2 * r))
+            along, out = (-normal[1], normal[0]), tuple(sign * n for n in normal)
+            ends = [at] + [
+                tuple(c + lead * u * t + (lead * v + r) * n for c, t, n in zip(start, along, out))
+                for u in (-1, 1) for v in (0, 1)
+            ]
+            near.append(grown(MultiPoint(ends).convex_hull, r))
         # No approach may cut what lies on the other side of the contour.
         if side == "outside":
             return words, unary_union(near).difference(shape.area)
@@ -580,6 +507,7 @@ class Part:
         rng = self.rng
         is_left = self.machine == "linuxcnc-mill" and rng.random() < 0.4
         if self.machine not in ("linuxcnc-mill", "fanuc", "haas"):
+            self._drill(at)
             return
         radius, pitch = rng.choice([(1.5, 0.5), (2.5, 1), (3, 1), (4, 1.25)])
         depth = rounded(rng, 2, self.depth)
