@@ -271,13 +271,23 @@ def altered(rng, texts):
         or re.match(r"(N\d+ )?G9[89] G", line)
     ]
     deep = [n for n in moves if re.search(r"Z-", lines[n])]
-    what = rng.choice(["Z", "Z", "Z", "Z", "XY", "IJ", "drop", "drop", "drop deep", "drop deep", "swap",
-                       "rest of Z", "cycle"])
+    what = rng.choice(
+        3 * ["Z"] + 2 * ["drop", "drop deep", "ramp", "rest of Z"] + ["XY", "IJ", "swap", "cycle"]
+    )
     n = rng.choice(moves)
     if what in ("Z", "drop deep", "rest of Z") and deep:
         n = rng.choice(deep)
     line = lines[n]
-    if what.startswith("drop"):
+    if what == "ramp":
+        slopes = [k for k in moves if "Z" in lines[k] and re.search("[XY]", lines[k])]
+        if not slopes:
+            return altered(rng, texts)
+        n = last = rng.choice(slopes)
+        line = lines[n]
+        while last + 1 in slopes:
+            last += 1
+        del lines[n : last + 1]
+    elif what.startswith("drop"):
         del lines[n]
     elif what == "swap":
         m = min(len(lines) - 1, n + 1)

@@ -1,5 +1,7 @@
 """Shapes in the words of a program, and their areas in Shapely, for `works.py`."""
 
+import math
+
 from shapely.geometry import LineString, Point, Polygon, box
 
 SEGMENTS = 64
@@ -59,12 +61,28 @@ def rounded_rectangle(x, y, w, h, r):
     return Shape(f"rounded({point(a)}, {point(b)}, {r:g})", area, sides, r)
 
 
-def slot(x, y, length, width):
-    """A slot along x."""
-    a, b, r = (x - length / 2, y), (x + length / 2, y), width / 2
-    sides = [((a[0], y - r), (b[0], y - r)), ((b[0], y + r), (a[0], y + r))]
+def slot(x, y, length, width, angle=0):
+    """A slot about a centre, at an angle in degrees."""
+    u, v = math.cos(math.radians(angle)), math.sin(math.radians(angle))
+    half, r = length / 2, width / 2
+    a, b = [tuple(round(c + k * half * t, 3) for c, t in ((x, u), (y, v))) for k in (-1, 1)]
+    sides = [
+        ((p[0] + k * r * v, p[1] - k * r * u), (q[0] + k * r * v, q[1] - k * r * u))
+        for k, p, q in ((1, a, b), (-1, b, a))
+    ]
     area = grown(LineString([a, b]), r)
     return Shape(f"slot({point(a)}, {point(b)}, {width:g})", area, sides, r)
+
+
+def regular(x, y, r, count, angle):
+    """A regular polygon whose first corner is at an angle in degrees."""
+    corners = [
+        (x + r * math.cos(math.radians(angle + 360 * k / count)),
+         y + r * math.sin(math.radians(angle + 360 * k / count)))
+        for k in range(count)
+    ]
+    text = f"polygon(circle({point((x, y))}, {r:g}), {count}, {angle} deg)"
+    return polygon_shape(corners, text)
 
 
 def circle(x, y, r):

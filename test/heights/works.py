@@ -18,7 +18,8 @@ from shapely.geometry import LineString, MultiPoint, MultiPolygon, Point, Polygo
 from shapely.ops import unary_union
 
 from shapes import (
-    bracket, circle, grown, opened, point, pointed, rectangle, rounded, rounded_rectangle, slot
+    bracket, circle, grown, opened, point, pointed, rectangle, regular, rounded,
+    rounded_rectangle, slot
 )
 
 # Distance in mm from an edge within which nothing is certain: a tolerance, a pulse, and the chords
@@ -47,7 +48,8 @@ class Part:
         self.claims, self.tools, self.numbers, self.order = [], {}, {}, []
         self.body, self.known = [], 0
         self.tolerance = rng.choice([0.01, 0.01, 0.005])
-        self.clearance = rounded(rng, 1, 5)
+        # Above the stock: its top is at most at 1.5.
+        self.clearance = rounded(rng, 2, 5)
         columns, rows = rng.choice([(1, 1), (2, 1), (2, 1), (2, 2), (3, 1)])
         self.size = (columns * CELL + 8, rows * CELL + 8)
         self.depth = rounded(rng, 3, 9)
@@ -286,7 +288,9 @@ class Part:
         w, h = rounded(rng, max(least, 8), 20), rounded(rng, max(least, 8), 20)
         return rng.choice([
             rectangle(x, y, w, h), rounded_rectangle(x, y, w, h, rounded(rng, 1, 3.5)),
-            circle(x, y, w / 2), slot(x, y, rounded(rng, 3, 8), max(least, rounded(rng, 5, 11))),
+            circle(x, y, w / 2),
+            slot(x, y, rounded(rng, 3, 8), max(least, rounded(rng, 5, 11)), rng.choice([0, 20, 77, 140])),
+            regular(x, y, max(least, rounded(rng, 7, 10)), rng.randint(3, 8), rng.randint(0, 90)),
             bracket(x, y, w, h, min(w, h) / 2 - 0.5), pointed(x, y, w, h, 3),
         ])
 
