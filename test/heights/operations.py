@@ -1,15 +1,15 @@
-"""Reads whole files of G-code, with helices and cycles for holes, and runs them on a cloud of points.
-Needs numpy.
+"""Reads whole files of G-code, with helices and cycles for holes, and runs them on a cloud of
+points. Needs numpy.
 
 `heights.py` has the motions and the arcs. This module adds what only whole files have: comments,
-numbers of lines, retract positions of the machine, full circles, arcs that rise, and the cycles G73,
-G81, G82, G83, G84, G85 and G33.1. A cycle is expanded as the manuals of the controls say.
+numbers of lines, retract positions of the machine, full circles, arcs that rise, and the cycles
+G73, G81, G82, G83, G84, G85 and G33.1. A cycle is expanded as the manuals of the controls say.
 
-A cloud holds points of the plane: those of a grid, and points beside the edges that matter. For each
-of them, the height up to which material is left is known. A motion lowers it to the lowest height of
-the tool over the point. This height is exact: over a point, the centre of the tool is within its
-radius on one stretch of a straight motion, and on at most three of an arc, and a height that changes
-evenly is lowest at an end of a stretch. So neither the cells nor pieces of motions make an error.
+A cloud holds points of the plane: those of a grid, and points beside the edges that matter. For
+each of them, the height up to which material is left is known. A motion lowers it to the lowest
+height of the tool over the point. This height is exact: over a point, the centre of the tool is
+within its radius on one stretch of a straight motion, and on at most three of an arc, and a height
+that changes evenly is lowest at an end of a stretch. So neither the cells nor pieces of motions make an error.
 """
 
 import math
@@ -308,7 +308,8 @@ class Run:
         tool = self.tools[motion.tool]
         radius, (a, b) = tool["radius"], motion.path[:2]
         if len(motion.path) == 4:
-            centre, reach = motion.path[2], math.hypot(a[0] - motion.path[2][0], a[1] - motion.path[2][1])
+            centre = motion.path[2]
+            reach = math.hypot(a[0] - centre[0], a[1] - centre[1])
             a, b = [c - reach for c in centre], [c + reach for c in centre]
         at = self.cloud.within(
             min(a[0], b[0]) - radius, min(a[1], b[1]) - radius,

@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
-"""Runs the files of random parts with all operations, and compares what is left with what has to be.
+"""Runs the files of random parts with all operations, and compares what is left with what has to
+be.
 
     removal.py PARTC [--parts N] [--altered N] [--seed S] [--cell MM] [--machine NAME] [--milling]
                      [--keep FOLDER]
@@ -108,8 +109,8 @@ def covered(line, radius):
 
 
 class Judged:
-    """The run of a part's files, compared with the part's claims: `faults`, each with its row in the
-    table and a text, and `hits`, those of rapid moves."""
+    """The run of a part's files, compared with the part's claims: `faults`, each with its row in
+    the table and a text, and `hits`, those of rapid moves."""
 
     def __init__(self, part, motions, cell, cloud=None):
         self.part, self.faults = part, []
@@ -131,7 +132,8 @@ class Judged:
         self._compare("cut that should stand", numpy.where(here, self.floor, -numpy.inf) - left)
         self._compare("stands that should be cut", numpy.where(here, left - self.least, -numpy.inf))
         self.hits = [
-            f"line {line} at ({x:.3f}, {y:.3f}), {deep:.3f} deep" for line, (x, y), deep in self.run.hits
+            f"line {line} at ({x:.3f}, {y:.3f}), {deep:.3f} deep"
+            for line, (x, y), deep in self.run.hits
         ]
 
     def _may_to(self, area, z):
@@ -171,6 +173,7 @@ class Judged:
             if len(places) != claim.others["count"]:
                 text = f"{claim.what}: {len(places)} tabs, not {claim.others['count']}"
                 self.faults.append(("tabs that are wrong", text))
+                self._may_to(claim.area, claim.z)
                 return
             self._shares(claim, places)
         top = claim.z + height
@@ -186,7 +189,8 @@ class Judged:
         for share, base in zip(LEVELS, bases):
             self._must_to(covered(base, r - slack), claim.z + share * height)
         for share, base in zip(LEVELS, bases[1:]):
-            self._may_to(covered(base, r + slack).intersection(claim.area), claim.z + share * height)
+            low = covered(base, r + slack).intersection(claim.area)
+            self._may_to(low, claim.z + share * height)
 
     def _found(self, claim):
         """The middles of the stretches of a path on which material stands above the floor."""
@@ -328,7 +332,8 @@ class Trial:
         self.counts["parts"] += 1
         for claim in self.part.claims:
             self.counts["claims: " + claim.what.split(" with")[0].split(",")[0]] += 1
-        for code in re.findall(r"^(?:N\d+ )?(?:G9[89] )?(G(?:73|8[1-5]|33\.1))\b", "\n".join(texts), re.M):
+        cycles = r"^(?:N\d+ )?(?:G9[89] )?(G(?:73|8[1-5]|33\.1))\b"
+        for code in re.findall(cycles, "\n".join(texts), re.M):
             self.counts["cycles: " + code] += 1
         judged = self._judged(texts)
         if judged is None:
@@ -403,7 +408,8 @@ class Trial:
         if judged and judged.faults:
             self.counts["altered files that are wrong"] += 1
             if not status:
-                self._fault("wrong altered files that are accepted", f"{what}: {judged.faults[0]}", made)
+                text = f"{what}: {judged.faults[0]}"
+                self._fault("wrong altered files that are accepted", text, made)
 
     def _fault(self, row, text, texts):
         self.counts[row] += 1

@@ -28,11 +28,10 @@ def point(p):
 
 
 class Shape:
-    """A closed shape: its text, its area, and the points at which a cut of it may begin, each in the
-    middle of a straight side, or anywhere on a circle."""
+    """A closed shape: its text, its area, its straight sides, and the radius of its narrowest
+    corner, seen from inside."""
 
     def __init__(self, text, area, sides, radius):
-        # radius: that of the smallest concave arc seen from inside.
         self.text, self.area, self.sides, self.radius = text, area, sides, radius
 
 
@@ -94,7 +93,8 @@ def bracket(x, y, w, h, cut):
     """A rectangle without its upper right corner."""
     a, b = (x - w / 2, y - h / 2), (x + w / 2, y + h / 2)
     return polygon_shape([
-        a, (b[0], a[1]), (b[0], b[1] - cut), (b[0] - cut, b[1] - cut), (b[0] - cut, b[1]), (a[0], b[1])
+        a, (b[0], a[1]), (b[0], b[1] - cut), (b[0] - cut, b[1] - cut), (b[0] - cut, b[1]),
+        (a[0], b[1]),
     ])
 
 

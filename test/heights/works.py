@@ -1,10 +1,10 @@
 """Random parts with all operations of a mill for `removal.py`, each with what has to stand and what
 has to be gone. Needs numpy and Shapely.
 
-A part is a plate with an outline and a few places inside it, and an operation in each place. What an
-operation does is worked out from its shapes here, with Shapely, and not from a path of partc: a cut
-along a contour is what a disc covers along the offset contour, a pocket is the opening of its region
-by the disc of the mill, a hole is a circle. Each operation makes *claims*:
+A part is a plate with an outline and a few places inside it, and an operation in each place. What
+an operation does is worked out from its shapes here, with Shapely, and not from a path of partc: a
+cut along a contour is what a disc covers along the offset contour, a pocket is the opening of its
+region by the disc of the mill, a hole is a circle. Each operation makes *claims*:
 
     may     in this area material may be gone down to a height, and nowhere else
     must    in this area material has to be gone down to a height
@@ -40,8 +40,8 @@ class Claim:
 
 
 class Part:
-    """A random part for a machine: `text`, `claims`, `tools` by number, `order` of the numbers as the
-    tools come, `top` and `blank`, the area of the stock or None."""
+    """A random part for a machine: `text`, `claims`, `tools` by number, `order` of the numbers as
+    the tools come, `top` and `blank`, the area of the stock or None."""
 
     def __init__(self, rng, name, machine, has_holes=True):
         self.rng, self.machine, self.has_holes = rng, machine, has_holes
@@ -68,8 +68,8 @@ class Part:
             work()
         head = [
             f"part {name}", f"machine {machine}", f"tool {self.order[0]} {self.first}", "feed 300",
-            f"tolerance {self.tolerance:g}", f"clearance {self.clearance:g}", "safe 40", "program 7",
-            "work 54", f"from (-20, -20, {self.clearance:g})",
+            f"tolerance {self.tolerance:g}", f"clearance {self.clearance:g}", "safe 40",
+            "program 7", "work 54", f"from (-20, -20, {self.clearance:g})",
         ]
         tail = [f"rapid (-20, -20, {self.clearance:g})"]
         self.text = "\n".join(head + stock + self.body + tail) + "\n"
@@ -136,7 +136,8 @@ class Part:
     def _face(self):
         rng, r = self.rng, self._mill()
         words = f"depth 0 step {rng.choice([0.4, 1, 2])} plunge 200"
-        words += rng.choice(["", "", f" angle {rng.choice([0, 30, 90])} deg", " climb", " conventional"])
+        angle = f" angle {rng.choice([0, 30, 90])} deg"
+        words += rng.choice(["", "", angle, " climb", " conventional"])
         self.body.append(f"face blank step {2 * r * rng.choice([0.5, 0.8, 1]):.4g} {{ {words} }}")
         self._must("face", grown(self.blank, 2 * MARGIN), 0)
         self._may("face", grown(self.blank, 2.2 * r), 0)
@@ -211,7 +212,8 @@ class Part:
         return (round((a[0] + b[0]) / 2, 3), round((a[1] + b[1]) / 2, 3))
 
     def _coming(self, words, way, shape, side, start, r):
-        """An approach beside a straight side, and a helix or leads: the words, and the area of these."""
+        """An approach beside a straight side, and a helix or leads: the words, and the area of
+        these."""
         rng = self.rng
         middle = shape.area.centroid
         sides = [s for s in shape.sides if Point(start).distance(LineString(s)) < 0.01]
@@ -221,7 +223,9 @@ class Part:
         length = math.dist(a, b)
         normal = ((b[1] - a[1]) / length, (a[0] - b[0]) / length)
         # Away from the wall, out of the shape or into it.
-        sign, reach = (1, rounded(rng, 2 * r, 3 * r, 0.25)) if side == "outside" else (-1, 1.4 * r + 0.5)
+        sign, reach = -1, 1.4 * r + 0.5
+        if side == "outside":
+            sign, reach = 1, rounded(rng, 2 * r, 3 * r, 0.25)
         at = tuple(round(c + sign * reach * n, 3) for c, n in zip(start, normal))
         words += f" approach {point(at)} rapid"
         near = [grown(LineString([at, start]), r)]
@@ -278,8 +282,8 @@ class Part:
         rng = self.rng
         milled = [self._pocket, self._pocket, self._pocket, self._rest, self._inside, self._on,
                   self._groove, self._boss, self._drill]
-        bored = [self._spot, self._ream, self._bore, self._counterbore, self._countersink, self._tap,
-                 self._thread]
+        bored = [self._spot, self._ream, self._bore, self._counterbore, self._countersink,
+                 self._tap, self._thread]
         rng.choice(milled + (bored if self.has_holes else []))(at)
 
     def _shape(self, at, least):
@@ -289,7 +293,10 @@ class Part:
         return rng.choice([
             rectangle(x, y, w, h), rounded_rectangle(x, y, w, h, rounded(rng, 1, 3.5)),
             circle(x, y, w / 2),
-            slot(x, y, rounded(rng, 3, 8), max(least, rounded(rng, 5, 11)), rng.choice([0, 20, 77, 140])),
+            slot(
+                x, y, rounded(rng, 3, 8), max(least, rounded(rng, 5, 11)),
+                rng.choice([0, 20, 77, 140]),
+            ),
             regular(x, y, max(least, rounded(rng, 7, 10)), rng.randint(3, 8), rng.randint(0, 90)),
             bracket(x, y, w, h, min(w, h) / 2 - 0.5), pointed(x, y, w, h, 3),
         ])
@@ -376,7 +383,8 @@ class Part:
         rng, (x, y), r = self.rng, at, self._mill(2)
         size = rounded(rng, 4, 19 - 4 * r)
         shape = rng.choice([
-            rectangle(x, y, size, size), rounded_rectangle(x, y, size, size, 1), circle(x, y, size / 2)
+            rectangle(x, y, size, size), rounded_rectangle(x, y, size, size, 1),
+            circle(x, y, size / 2),
         ])
         self._along(shape, "outside", r, self.depth, rng.random() < 0.3)
 
@@ -431,9 +439,12 @@ class Part:
         self._tool(text, radius, slope)
         places, where = self._holes(at, radius)
         depth = rounded(rng, 1, self.depth + 2, 0.25)
-        peck = [f"peck {rng.choice([0.7, 1.5, 2, 3, 6]):g}"] if rng.random() < 0.6 else []
+        # LinuxCNC has cycles for pecks longer than the clearance, and breaks chips by 0.254.
+        is_linuxcnc = self.machine == "linuxcnc-mill"
+        lengths = [3, 4, 6] if is_linuxcnc else [0.7, 1.5, 2, 3, 6]
+        peck = [f"peck {rng.choice(lengths):g}"] if rng.random() < 0.7 else []
         if peck and self.has_holes and rng.random() < 0.5:
-            peck[0] += f" chip break {rng.choice([0.254, 0.5, 0.3])}"
+            peck[0] += f" chip break {0.254 if is_linuxcnc else rng.choice([0.254, 0.5, 0.3])}"
         more = peck + (self._dwell() if self.has_holes and rng.random() < 0.3 else [])
         more += [w for w in ("shortest", "plunge 90") if rng.random() < 0.4]
         tail = f" {{ {' '.join(more)} }}" if more else ""
