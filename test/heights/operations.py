@@ -9,7 +9,8 @@ A cloud holds points of the plane: those of a grid, and points beside the edges 
 each of them, the height up to which material is left is known. A motion lowers it to the lowest
 height of the tool over the point. This height is exact: over a point, the centre of the tool is
 within its radius on one stretch of a straight motion, and on at most three of an arc, and a height
-that changes evenly is lowest at an end of a stretch. So neither the cells nor pieces of motions make an error.
+that changes evenly is lowest at an end of a stretch. So neither the cells nor pieces of motions make
+an error.
 """
 
 import math

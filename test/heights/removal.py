@@ -42,6 +42,10 @@ import works
 MACHINES = ("linuxcnc-mill", "grbl", "iso6983", "haas", "fanuc", "marlin")
 # Distance between points beside the edges that matter, and along a path with tabs.
 EDGE_STEP, TAB_STEP = 0.3, 0.05
+# What partc permits on a floor, and a distance from a wall that does not belong to the floor alone.
+FLOOR, WALL = 0.03, 0.1
+# Most points for which cusps are looked for: more of them are no cusps.
+MOST_CUSPS = 100
 # Parts of the height of a tab at which its sides are compared.
 LEVELS = (0, 0.15, 0.5, 0.85, 1)
 BAD_ROWS = (
@@ -130,11 +134,27 @@ class Judged:
         here = numpy.isfinite(self.run.left)
         left = numpy.where(here, self.run.left, 0)
         self._compare("cut that should stand", numpy.where(here, self.floor, -numpy.inf) - left)
-        self._compare("stands that should be cut", numpy.where(here, left - self.least, -numpy.inf))
+        stands = numpy.where(here, left - self.least, -numpy.inf)
+        self._compare("stands that should be cut", self._without_cusps(stands, motions))
         self.hits = [
             f"line {line} at ({x:.3f}, {y:.3f}), {deep:.3f} deep"
             for line, (x, y), deep in self.run.hits
         ]
+
+    def _without_cusps(self, stands, motions):
+        """What stands on floors, without what a cutter that is a little larger would cut. Between
+        two passes of a pocket, a floor may have a cusp that is narrower than `FLOOR`."""
+        for k in numpy.flatnonzero(stands > works.HAIR)[:MOST_CUSPS]:
+            claim, x, y = self.part.claims[self.whose[k]], self.cloud.x[k], self.cloud.y[k]
+            if claim.kind != "must" or claim.area.boundary.distance(Point(x, y)) < WALL:
+                return stands
+            x, y = numpy.array([x]), numpy.array([y])
+            left = min(
+                operations.lowest(m, x, y, self.part.tools[m.tool]["radius"] + FLOOR, 0.0)[0]
+                for m in motions if self.part.tools[m.tool]["slope"] == 0
+            )
+            stands[k] = min(stands[k], left - self.least[k])
+        return stands
 
     def _may_to(self, area, z):
         at = self.cloud.inside(shapes.grown(area, works.MARGIN))
