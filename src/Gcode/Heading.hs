@@ -25,6 +25,7 @@ import Data.Maybe (isJust)
 import Data.Set (Set)
 import Data.Set qualified as Set
 import Data.Text (Text)
+import Frame.CommandState qualified as CommandState
 import Frame.Frame (FrameProgram (..))
 import Frame.Frame qualified as Frame
 import Gcode.HoleCycle (TapNeed (..))
@@ -49,7 +50,7 @@ data FileHeading = FileHeading
     firstTool :: Maybe Int,
     -- | the tools in the order of their use, each with its number and a description
     toolList :: [(Int, Text)],
-    -- | numbers of the tools as the program changes them
+    -- | numbers of the tools as the program changes them, without those that do nothing
     toolOrder :: [Int],
     -- | height in mm that is above everything, in work coordinates
     safeHeight :: Maybe Mm,
@@ -76,7 +77,7 @@ fromToolpath path =
       workOffset = maybe 54 value (Toolpath.workOffset setup),
       programNumber = value <$> Toolpath.programNumber setup,
       firstTool,
-      toolOrder = maybe id (:) firstTool (map fst changed),
+      toolOrder = maybe id (:) firstTool (changesIn blocks),
       toolList = nubOrdOn fst (first <> changed),
       safeHeight = value <$> Toolpath.safeHeight setup,
       freeHeight = highestClearance path,
@@ -106,6 +107,21 @@ fromToolpath path =
     unit = Toolpath.unit path
     first = [(n, cutterText unit c) | (n, c) <- numbered]
     changed = [(n, cutterText unit cutter) | Part.ChangeTool n cutter <- commands]
+
+-- | Numbers of the tools that are changed to, in order. A tool that makes no move before the next
+-- change is left out, as in the frames.
+changesIn :: [Block] -> [Int]
+changesIn blocks = case blocks of
+  [] -> []
+  Toolpath.Commanding (Located _ (Part.ChangeTool n _)) : more
+    | isUsed more -> n : changesIn more
+  _ : more -> changesIn more
+  where
+    isUsed more = case more of
+      [] -> False
+      Toolpath.Commanding (Located _ (Part.ChangeTool _ _)) : _ -> False
+      Toolpath.Commanding (Located _ c) : rest -> CommandState.isEvent c || isUsed rest
+      b : rest -> not (null (Toolpath.moves b)) || isUsed rest
 
 -- | The taps of blocks, by the numbers of the blocks.
 tapsOf :: [Block] -> Map Int TapNeed
