@@ -324,7 +324,6 @@ sharedNames =
         ("Corners", ["Offset.RawOffset", "Surface.Syntax"]),
         ("Cutter", ["Checked.Syntax", "Part.Part", "Surface.Syntax"]),
         ("Descent", ["Draw.Descent", "Part.Part"]),
-        ("Levelled", ["Verify.Swivel", "Verify.Tab"]),
         ("Slope", ["Toolpath.Descent", "Verify.Descent"]),
         ("TabPlaces", ["Checked.Syntax", "Part.Part", "Surface.Syntax"]),
         ("Tabs", ["Checked.Syntax", "Part.Part"]),

@@ -21,9 +21,7 @@ import Data.IntSet (IntSet)
 import Data.IntSet qualified as IntSet
 import Data.List (foldl')
 import Data.List.NonEmpty qualified as NonEmpty
-import Data.Maybe (catMaybes, fromMaybe, isJust, listToMaybe, mapMaybe)
-import Data.Vector qualified as Boxed
-import Data.Vector.Unboxed qualified as Vector
+import Data.Maybe (catMaybes, isJust, listToMaybe, mapMaybe)
 import Frame.Frame (Frame, FrameProgram)
 import Frame.Frame qualified as Frame
 import Geometry.Carrier (Circle (Circle), Sense (CounterClockwise))
@@ -58,7 +56,7 @@ import Verify.RemainingStock
     StockSolid (StockSolid),
   )
 import Verify.RemainingStock qualified as Stock
-import Verify.SpindleTool qualified as SpindleTool
+import Verify.SpindleCutter qualified as SpindleCutter
 
 -- | Facts that all comparisons need.
 data Facts = Facts
@@ -94,7 +92,7 @@ collisions subject radiusOf =
       Facts
         { subject,
           radiusOf,
-          toolsIn = toolsOf subject,
+          toolsIn = SpindleCutter.cuttersOf subject,
           rapidFrames,
           strays = \m ->
             if hasBoxPaths && IntSet.member (number m) rapidFrames
@@ -130,29 +128,9 @@ inProgram machine path program
     isAsked =
       isJust (Toolpath.stock setup)
         || not (null (Toolpath.avoided setup))
-        || any ((/= Part.plainBody) . body) (catMaybes (cutters path))
+        || any ((/= Part.plainBody) . body) (catMaybes (SpindleCutter.cutters path))
 
 -- Tools -------------------------------------------------------------------------------------------
-
--- | Tools of a toolpath by their index, from 0; Nothing where the program gives none.
-cutters :: Toolpath -> [Maybe Cutter]
-cutters path =
-  Toolpath.firstCutter (Toolpath.setup path) :
-    [ Just c
-      | Toolpath.Commanding (Located _ (Part.ChangeTool _ c)) <- Toolpath.blocks path
-    ]
-
--- | Tools that may be in the spindle in a frame, by the number of the frame from 1. On a tape that
--- does not show its tool, these are all tools.
-toolsOf :: ProofSubject -> Int -> [(Int, Cutter)]
-toolsOf subject@ProofSubject {path, program, frames}
-  | Subject.isAligned subject = \n -> tool (fromMaybe 0 (planned Vector.!? (n - 1)))
-  | Just indices <- SpindleTool.indicesByCommands program frames = concatMap tool . indices
-  | otherwise = const (concatMap tool [0 .. Boxed.length all' - 1])
-  where
-    planned = SpindleTool.plannedIndices program
-    all' = Boxed.fromList (cutters path)
-    tool k = [(k, c) | Just (Just c) <- [all' Boxed.!? k]]
 
 -- | Parts of the holder of a tool.
 holderParts :: Cutter -> [Cylinder]
@@ -360,7 +338,7 @@ bounds m = (min (fromHeight m) (toHeight m), max (fromHeight m) (toHeight m))
 -- | Contacts of the shanks and the holders of tools with stock.
 bodiesInStock :: Facts -> [Collision]
 bodiesInStock facts@Facts {subject}
-  | not (any hasBody (catMaybes (cutters (path subject)))) = []
+  | not (any hasBody (catMaybes (SpindleCutter.cutters (path subject)))) = []
   | otherwise =
     [ collisionOf facts m cylinder low (Stock.top solid) (StockLeft p)
       | (k, m) <- zip [0 ..] (unlevelledMotions subject),

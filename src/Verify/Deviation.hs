@@ -35,6 +35,7 @@ import Verify.Edge qualified as Edge
 import Verify.Excess qualified as Excess
 import Verify.Gouge (KeepOut (..))
 import Verify.Gouge qualified as Gouge
+import Verify.MilledThread qualified as MilledThread
 import Verify.MillingJob (MillingJob (..))
 import Verify.MillingJob qualified as MillingJob
 import Verify.Motion (CutterMotion (number))
@@ -247,7 +248,7 @@ keepOutOf set job along = \m ->
               required = \e p ->
                 plus (reach job) (Gouge.allowanceAt (side job) (roundingOf m) (edges job) e p)
             }
-        else (Gouge.constantKeepOut tool) {searchRadius}
+        else (MilledThread.keepOut (MotionSet.threadsOf set m) tool) {searchRadius}
   where
     -- The bounding paths of an arc lie beside its real path by the difference of its radii.
     roundingOf m = plus pulse (Mm (FastDistance.uneven (Motion.segment m)))

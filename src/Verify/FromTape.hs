@@ -58,6 +58,7 @@ import Verify.Feed qualified as Feed
 import Verify.ForeignCut qualified as ForeignCut
 import Verify.FrameRule qualified as FrameRule
 import Verify.HoleCheck qualified as HoleCheck
+import Verify.MilledThread qualified as MilledThread
 import Verify.Motion (CutterMotion (number, segment))
 import Verify.Motion qualified as Motion
 import Verify.MotionMatch (ClearingFrames (..))
@@ -74,6 +75,7 @@ import Verify.Proof qualified as Proof
 import Verify.ProofSubject (ProofSubject (..))
 import Verify.ProofSubject qualified as Subject
 import Verify.RequiredMove qualified as RequiredMove
+import Verify.SpindleCutter qualified as SpindleCutter
 import Verify.StartSearch (OtherStart)
 import Verify.StartSearch qualified as StartSearch
 import Verify.TapeSummary qualified as TapeSummary
@@ -201,6 +203,7 @@ motionSetOf subject passes =
       MotionSet.isTopFaced,
       MotionSet.isPlanned = not (Subject.isDifferent subject),
       MotionSet.toolOf,
+      MotionSet.threadsOf = MilledThread.threadsOf (path subject) . map snd . cuttersIn . number,
       MotionSet.motions = motions subject,
       MotionSet.nearby
     }
@@ -215,6 +218,7 @@ motionSetOf subject passes =
         ]
     otherLevels = map level passes <> map fst pocketLevels
     toolOf = Subject.toolIn subject passes
+    cuttersIn = SpindleCutter.cuttersOf subject
     nearby box
       | isAskedOnce = motions subject
       | otherwise = BoxTree.within (BoundingBox.inflate largestTool box) (motionIndex subject)

@@ -13,6 +13,7 @@ import Base.Quantity (Mm (..))
 import Geometry.Index.BoundingBox (BoundingBox)
 import Machine.Machine (Axis (Z), Machine)
 import Machine.Machine qualified as Machine
+import Verify.MilledThread (Thread)
 import Verify.Motion (CutterMotion (..))
 import Verify.Motion qualified as Motion
 
@@ -28,6 +29,8 @@ data MotionSet = MotionSet
     isPlanned :: Bool,
     -- | radius of the cutter in a motion, in mm
     toolOf :: CutterMotion -> Mm,
+    -- | threads that the tool of a motion may mill
+    threadsOf :: CutterMotion -> [Thread],
     -- | all motions, in the order of the tape
     motions :: [CutterMotion],
     -- | all motions in which the cutter may touch a box, and perhaps others; in the order of the

@@ -34,6 +34,8 @@ import Part.Part qualified as Part
 import Toolpath.Toolpath (Toolpath)
 import Toolpath.Toolpath qualified as Toolpath
 import Verify.Deviation (MillingPass (..))
+import Verify.LevelledMotion (Levelled (Levelled))
+import Verify.LevelledMotion qualified as Levelled
 import Verify.MillingJob (MillingJob (milling))
 import Verify.Motion (CutterMotion (number, segment))
 import Verify.Motion qualified as Motion
@@ -104,9 +106,9 @@ subjectOf machine path program frames =
       isSwivelled,
       isOverTabs,
       plannedMotions =
-        Tab.motions
+        Levelled.motions
           ( overTabs
-              ( Swivel.motions
+              ( Levelled.motions
                   (levelled (fst (run (map Frame.frame (Frame.plannedFrames program)))))
               )
           ),
@@ -118,8 +120,8 @@ subjectOf machine path program frames =
     }
   where
     tools = SpindleTool.plannedTools program
-    Swivel.Levelled {Swivel.motions = swivelled, Swivel.isSwivelled} = levelled centreMotions
-    Tab.Levelled {Tab.motions, Tab.isOverTabs} = overTabs swivelled
+    Levelled swivelled isSwivelled = levelled centreMotions
+    Levelled motions isOverTabs = overTabs swivelled
     levelled = Swivel.levelled machine path
     overTabs = Tab.levelled machine path
     (centreMotions, compensationErrors) = run frames

@@ -5,8 +5,7 @@
 -- rounding, the motion gets the height of the pass. If not, it keeps the height of the axis, so
 -- that it does not count as a motion along the contour.
 module Verify.Swivel
-  ( Levelled (..),
-    levelled,
+  ( levelled,
   )
 where
 
@@ -33,28 +32,20 @@ import Part.Part (Milling)
 import Part.Part qualified as Part
 import Toolpath.Toolpath (Toolpath)
 import Toolpath.Toolpath qualified as Toolpath
+import Verify.LevelledMotion (Levelled (..))
 import Verify.Motion (CutterMotion (..))
 import Verify.Motion qualified as Motion
 import Verify.Requirement qualified as Requirement
-
--- | Motions after 'levelled'.
-data Levelled = Levelled
-  { motions :: [CutterMotion],
-    -- | test that the axis has the right height for a pass with a blade during the whole motion. A
-    -- motion without it can be at the height of a pass all the same, because the heights of the
-    -- axis lie about that height
-    isSwivelled :: CutterMotion -> Bool
-  }
 
 -- | Bring the motions along contours that are cut with a blade to the heights of their passes. If a
 -- motion fits several passes, it gets the height of the first one. Other motions stay as they are.
 levelled :: Machine -> Toolpath -> [CutterMotion] -> Levelled
 levelled machine path ms
-  | null passes = Levelled {motions = ms, isSwivelled = const False}
+  | null passes = Levelled {motions = ms, isAsDemanded = const False}
   | otherwise =
     Levelled
       { motions = zipWith fromMaybe ms fitting,
-        isSwivelled = \m -> IntSet.member (number m) swivelled
+        isAsDemanded = \m -> IntSet.member (number m) swivelled
       }
   where
     fitting = map (\m -> listToMaybe (mapMaybe (\pass -> levelledIn machine pass m) passes)) ms

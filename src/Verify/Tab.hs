@@ -5,12 +5,11 @@
 -- take it for a part of the pass. If not, it keeps its heights, and does not count as a motion
 -- along the contour: a cut through a tab leaves excess, and so does a tab where none is asked for.
 --
--- The toolpath says where the tabs are. That they are as many as the statement asks for, near the
--- points of the statement, away from corners, and of the right width, height and slope, follows
--- from the statement alone.
+-- The toolpath says where the tabs are. The proof tests by itself that they are as many as the
+-- statement asks for, near the points of the statement, apart from each other, and away from
+-- corners and small arcs. Their width, height and slope follow from the statement alone.
 module Verify.Tab
-  ( Levelled (..),
-    levelled,
+  ( levelled,
     isBelow,
   )
 where
@@ -18,9 +17,9 @@ where
 import Base.Quantity (Mm (..), Rad (..), minus, over, plus, times)
 import Base.Region (Located (..))
 import Data.IntSet qualified as IntSet
-import Data.List (mapAccumL)
+import Data.List (mapAccumL, sortOn)
 import Data.List.NonEmpty qualified as NonEmpty
-import Data.Maybe (catMaybes, fromMaybe, mapMaybe)
+import Data.Maybe (catMaybes, fromMaybe, listToMaybe, mapMaybe)
 import Data.Vector (Vector)
 import Data.Vector qualified as Vector
 import Geometry.Carrier (Side)
@@ -29,6 +28,7 @@ import Geometry.Distance qualified as Distance
 import Geometry.Index.BoundingBox qualified as BoundingBox
 import Geometry.Index.BoxTree (BoxTree)
 import Geometry.Index.BoxTree qualified as BoxTree
+import Geometry.Polyarc (Ends (Closed))
 import Geometry.Segment (Segment (..))
 import Geometry.Segment qualified as Segment
 import Geometry.Tolerance qualified as Tolerance
@@ -38,28 +38,22 @@ import Machine.Machine (Machine)
 import Machine.Machine qualified as Machine
 import Part.Part (Milling, Tabs)
 import Part.Part qualified as Part
+import Part.Tolerance qualified as PartTolerance
 import Toolpath.Toolpath (Toolpath)
 import Toolpath.Toolpath qualified as Toolpath
+import Verify.LevelledMotion (Levelled (..))
 import Verify.Motion (CutterMotion (..))
 import Verify.Motion qualified as Motion
 import Verify.Requirement qualified as Requirement
 
--- | Motions after 'levelled'.
-data Levelled = Levelled
-  { motions :: [CutterMotion],
-    -- | test that a motion has the heights that the tabs of its pass demand. A motion without them
-    -- can be at the height of a pass all the same, where it cuts through a tab
-    isOverTabs :: CutterMotion -> Bool
-  }
-
 -- | Bring the motions over tabs to the heights of their passes. Other motions stay as they are.
 levelled :: Machine -> Toolpath -> [CutterMotion] -> Levelled
 levelled machine path ms
-  | null passes = Levelled {motions = ms, isOverTabs = const True}
+  | null passes = Levelled {motions = ms, isAsDemanded = const True}
   | otherwise =
     Levelled
       { motions = zipWith fromMaybe ms fitting,
-        isOverTabs = \m -> IntSet.member (number m) fitted
+        isAsDemanded = \m -> IntSet.member (number m) fitted
       }
   where
     -- The top of a tab is the same in all passes, and may be the height of a pass above. There a
@@ -126,7 +120,7 @@ data TabbedPass = TabbedPass
 -- has in the middles of the tabs.
 tabbedPass :: Milling -> Tabs -> Toolpath.Pass -> [Point] -> TabbedPass
 tabbedPass milling asked Toolpath.Pass {Toolpath.left, Toolpath.atHeight} middles =
-  pass {places = if isAsked then tabs else []}
+  pass {places = fromMaybe [] (placesOf pass milling asked middles)}
   where
     pass =
       TabbedPass
@@ -149,6 +143,17 @@ tabbedPass milling asked Toolpath.Pass {Toolpath.left, Toolpath.atHeight} middle
     reachOf e = plus (Requirement.centreDistance milling left) (Part.allowance (Part.finish e))
     pathLength e = times (magnification side (reachOf e) (Part.segment e)) (lengthOf e)
     lengthOf = Segment.length . Part.segment
+
+-- | The places of tabs at the middles @middles@, and the halves of their flats. Nothing if the tabs
+-- are not where the statement asks for them.
+placesOf :: TabbedPass -> Milling -> Tabs -> [Point] -> Maybe [(Mm, Mm)]
+placesOf pass milling asked middles
+  | isAsked && areApart pass closed tabs && all isClear tabs = Just tabs
+  | otherwise = Nothing
+  where
+    contour = Part.contour milling
+    closed = Part.ends contour == Closed
+    segments = map Part.segment (NonEmpty.toList (Part.elements contour))
     chord = plus (Part.tabWidth asked) (times 2 (Part.radius milling))
     tabs =
       [ (place, f)
@@ -156,14 +161,21 @@ tabbedPass milling asked Toolpath.Pass {Toolpath.left, Toolpath.atHeight} middle
           Just place <- [placeOf pass p],
           Just f <- [flatOf pass chord place]
       ]
-    isAsked = case Part.tabPlaces asked of
-      Part.Evenly n -> length tabs == n
-      Part.NearPoints ps ->
-        length tabs == length ps && all (\(Located _ p) -> any (isBeside p) middles) ps
+    isAsked =
+      length tabs == length middles && case Part.tabPlaces asked of
+        Part.Evenly n -> length tabs == n
+        Part.NearPoints ps ->
+          length tabs == length ps && all (\(Located _ p) -> any (isBeside p) middles) ps
     -- The contour's point nearest to the tab is the contour's point nearest to the point.
     isBeside p middle =
-      let foot q = snd (nearestOf (map Part.segment (NonEmpty.toList es)) q)
-       in Vec.distance (foot p) (foot middle) <= Mm 0.01
+      let foot q = snd (nearestOf segments q)
+       in Vec.distance (foot p) (foot middle) <= slackOfPlace
+    blocked = barriers pass closed (times 0.75 chord)
+    isClear (place, f) =
+      let l = plus (half pass f) (Part.radius milling)
+          touches (a, b) =
+            plus place l > plus a slackOfPlace && b > plus (minus place l) slackOfPlace
+       in not (any touches blocked)
 
 -- | The least distance of a point from segments, and the nearest point.
 nearestOf :: [Segment] -> Point -> (Mm, Point)
@@ -236,6 +248,56 @@ flatOf pass chord place
       where
         between = times 0.5 (plus low high)
 
+-- | Half of the length of the path on which the centre is above the pass, by the half of the flat.
+half :: TabbedPass -> Mm -> Mm
+half pass f = plus f (times (1 / rise pass) (minus (top pass) (level pass)))
+
+-- | Test that no two tabs meet. A closed path goes on at its beginning.
+areApart :: TabbedPass -> Bool -> [(Mm, Mm)] -> Bool
+areApart pass closed tabs = and (zipWith clear inOrder (drop 1 inOrder <> wrapped))
+  where
+    inOrder = sortOn fst tabs
+    wrapped = [(plus place (whole pass), f) | closed, (place, f) <- take 1 inOrder]
+    clear (a, f) (b, g) =
+      plus (minus b a) slackOfPlace >= plus (half pass f) (half pass g)
+
+-- | Stretches of the path that tabs keep away from: corners, which have no length, and arcs with a
+-- radius below @least@. On a closed path they also stand before its beginning and after its end.
+barriers :: TabbedPass -> Bool -> Mm -> [(Mm, Mm)]
+barriers pass closed least =
+  concat
+    [ [(minus a (whole pass), minus b (whole pass)) | closed]
+        <> [(a, b)]
+        <> [(plus a (whole pass), plus b (whole pass)) | closed]
+      | (a, b) <- corners <> small
+    ]
+  where
+    list = Vector.toList (offsets pass)
+    followers = map Just (drop 1 list) <> [if closed then listToMaybe list else Nothing]
+    elements' = zip3 [0 ..] list followers
+    corners =
+      [ (p, p)
+        | (i, (_, s), Just (_, next)) <- elements',
+          let Rad turn = Vec.signedAngle (Segment.endDirection s) (Segment.startDirection next)
+              Rad most = PartTolerance.smoothTurn
+              p = starts pass Vector.! (i + 1),
+          abs turn > most
+      ]
+    small =
+      [ (starts pass Vector.! i, starts pass Vector.! (i + 1))
+        | (i, (reach, s@(Arc {start, centre})), _) <- elements',
+          let r = Segment.radius centre start,
+          plus (min r (times (magnification (side pass) reach s) r)) slackOfPlace < least
+      ]
+
+-- | The length of the whole path.
+whole :: TabbedPass -> Mm
+whole pass = Vector.last (starts pass)
+
+-- | Uncertainty of places along the path and of points on the contour.
+slackOfPlace :: Mm
+slackOfPlace = Mm 0.01
+
 -- | The motion @m@ at the height of a pass. Nothing if it is away from the contour, or does not
 -- have the right height everywhere.
 levelledIn :: Machine -> TabbedPass -> CutterMotion -> Maybe CutterMotion
@@ -255,11 +317,11 @@ levelledIn machine pass m
     edges =
       [ Distance.nearestFraction q (segment m)
         | (place, f) <- places pass,
-          at <- [minus place f, place, plus place f, minus place (half f), plus place (half f)],
+          let l = half pass f,
+          at <- [minus place f, place, plus place f, minus place l, plus place l],
           let q = positionAt pass at,
           Distance.toPoint q (segment m) <= slack
       ]
-    half f = plus f (times (1 / rise pass) (minus (top pass) (level pass)))
     isRight k =
       let z = plus low (times k (minus high low))
        in case placeOf pass (Segment.at k (segment m)) of

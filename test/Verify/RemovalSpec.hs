@@ -11,7 +11,7 @@ import Test.Hspec
 spec :: Spec
 spec = do
   parts <- runIO (fromMaybe 10 <$> askedCount "PARTC_REMOVAL")
-  it "files of random parts leave what has to stand, and nothing else (pending without Shapely)" $ do
+  it "files of random parts leave what has to stand, and no more (pending without Shapely)" $ do
     (found, _, _) <- readProcessWithExitCode python ["-c", "import numpy, shapely"] ""
     if found /= ExitSuccess
       then pendingWith "the packages python3-numpy and python3-shapely are not installed"
