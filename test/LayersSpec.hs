@@ -150,7 +150,7 @@ stageData =
       ),
       ("Frame.Frame", []),
       ("Tape.Tape", []),
-      ("Verify.Proof", ["Verify.CollisionFinding", "Verify.ControlFault"])
+      ("Verify.Proof", ["Verify.CollisionFinding", "Verify.ControlFault", "Verify.CoreHoleFinding"])
     ]
 
 -- The check ---------------------------------------------------------------------------------

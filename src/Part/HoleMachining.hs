@@ -41,6 +41,7 @@ import Part.Parameter qualified as Parameter
 import Part.Part
 import Part.Piece qualified as Piece
 import Part.Value (Value (..))
+import Part.WallDepth qualified as WallDepth
 import Surface.HoleForm qualified as HoleForm
 
 -- | Evaluates the drilling of one hole or several holes. @at@ is the region of the statement, and
@@ -380,7 +381,7 @@ threaded context w tool d deep = do
       | abs (over own pitch - 1) > 1.0e-6 -> threadMistake (OtherPitch (region along) pitch own)
     _ -> pure ()
   let core = internalCore d pitch
-      root = minus (times 0.5 d) (times (17 / 24 * sqrt 0.75) pitch)
+      root = minus (times 0.5 d) (WallDepth.threadDepth pitch)
       isInside = maybe True ((== Inside) . value) (threadSide w)
       sense = if isInside then insideSense context w else opposite (insideSense context w)
       mouth = times 0.5 d

@@ -34,6 +34,7 @@ import Offset.Tolerance qualified as Tolerance
 import Part.ContourElement qualified as ContourElement
 import Part.Part (Accuracy, Contour (elements), Milling (contour, radius, side), Side (..))
 import Part.Part qualified as Part
+import Part.WallDepth qualified as WallDepth
 import Toolpath.Error (ContourBeginning (..), Error (..), Intrusion (..))
 import Toolpath.LinkingMove qualified as LinkingMove
 import Toolpath.LinkingMoveError (CheckedMoves (CheckedMoves), LinkingMoveError (OnOtherSide))
@@ -99,7 +100,7 @@ intrusionsOfBlock machined b = case b of
      in map
           (asHole d)
           ( filter
-              (not . isOwnThread d)
+              (not . isOwnCylinder d)
               (concat [found (Intruder (widthOf m) Nothing Nothing) m | m <- ms])
           )
   Cutting {} -> intrusionsOfPass machined b
@@ -122,13 +123,17 @@ intrusionsOfBlock machined b = case b of
         HoleCuts at (Segment.end move) [] element deep (Part.drillRadius d) (Part.drillSize d)
       _ -> e
 
--- | True for a cut into the cylinder whose thread is milled: a circle about the centre of a hole.
--- The teeth go below it.
-isOwnThread :: Part.Drilling -> Error -> Bool
-isOwnThread d e = case (Part.form d, e) of
-  (Part.Threaded _, CutsPart _ _ element _ _ _ _)
+-- | True for a cut into the cylinder on which a statement works: a circle about the centre of a
+-- hole. The teeth of a thread and a reamer go below its wall, and a countersink cuts its rim.
+isOwnCylinder :: Part.Drilling -> Error -> Bool
+isOwnCylinder d e = case e of
+  CutsPart _ _ element deep _ _ _
     | Arc {Segment.centre = c} <- Part.segment element ->
-      or [Vec.isNear c p | Part.Hole (Located _ p) _ _ <- NonEmpty.toList (Part.holes d)]
+      or
+        [ Vec.isNear c p && deep <= plus most Tolerance.resolution
+          | Part.Hole (Located _ p) _ mouth <- NonEmpty.toList (Part.holes d),
+            Just most <- [WallDepth.wallDepth d mouth]
+        ]
   _ -> False
 
 -- | The radius of the tool of a drilling statement during a move. A pointed tool is no wider than

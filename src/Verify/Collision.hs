@@ -16,7 +16,7 @@ module Verify.Collision
 where
 
 import Base.Quantity (Mm (..), minus, over, plus)
-import Base.Region (Located (..))
+import Base.Region (Located (..), Region)
 import Data.IntSet (IntSet)
 import Data.IntSet qualified as IntSet
 import Data.List (foldl')
@@ -43,10 +43,12 @@ import Part.Part qualified as Part
 import Toolpath.Toolpath (Block, Toolpath)
 import Toolpath.Toolpath qualified as Toolpath
 import Verify.CollisionFinding (Collision (..), Contact (..), ToolPart (..))
+import Verify.CoreHole qualified as CoreHole
+import Verify.CoreHoleFinding (CoreHoleFault)
 import Verify.ForeignCut qualified as ForeignCut
 import Verify.Motion (CutterMotion (..))
 import Verify.Motion qualified as Motion
-import Verify.Proof (Finding (Collides))
+import Verify.Proof (Finding (Collides, NeedsHole))
 import Verify.ProofSubject (ProofSubject (..))
 import Verify.ProofSubject qualified as Subject
 import Verify.RemainingStock
@@ -83,10 +85,13 @@ data Cylinder = Cylinder ToolPart Mm Mm
 -- into stock, one for the shank or the holder in stock.
 collisions :: ProofSubject -> (CutterMotion -> Mm) -> [Finding]
 collisions subject radiusOf =
-  map Collides $
-    mapMaybe (listToMaybe . intoAvoided facts) (Toolpath.avoided (Toolpath.setup (path subject)))
-      <> take 1 (rapidsIntoStock facts (metal (path subject)))
-      <> take 1 (bodiesInStock facts)
+  map
+    Collides
+    ( mapMaybe (listToMaybe . intoAvoided facts) (Toolpath.avoided (Toolpath.setup (path subject)))
+        <> take 1 (rapidsIntoStock facts (metal (path subject)))
+        <> take 1 (bodiesInStock facts)
+    )
+    <> map NeedsHole (coreHolesIn facts)
   where
     facts =
       Facts
@@ -193,18 +198,20 @@ collisionOf :: Facts -> CutterMotion -> Cylinder -> Mm -> Mm -> Contact -> Colli
 collisionOf Facts {subject} m (Cylinder toolPart _ above) low top contact =
   Collision
     { frameOfCollision = number m,
-      asked,
+      asked = askedIn subject m,
       toolPart,
       partAbove = above,
       tipHeight = low,
       isEndless = top >= Tolerance.reach,
       contact
     }
-  where
-    asked
-      | not (Subject.isAligned subject) = Nothing
-      | otherwise =
-        Frame.origin <$> listToMaybe (drop (number m - 1) (Frame.plannedFrames (program subject)))
+
+-- | Text in the program that asks for a motion. Nothing if the tape has other frames than planned.
+askedIn :: ProofSubject -> CutterMotion -> Maybe Region
+askedIn subject m
+  | not (Subject.isAligned subject) = Nothing
+  | otherwise =
+    Frame.origin <$> listToMaybe (drop (number m - 1) (Frame.plannedFrames (program subject)))
 
 -- | Part of a motion in which the tip is below a height, and the lowest height of the tip there.
 -- Nothing if it is nowhere below.
@@ -311,6 +318,26 @@ risesInItsCut facts m before =
     && case (toolsIn facts (number before), toolsIn facts (number m)) of
       ([(t0, _)], [(t, c)]) -> t0 == t && CutterBody.widensUpwards c
       _ -> False
+
+-- | Taps, reamers and thread mills that run into the stock of the program.
+coreHolesIn :: Facts -> [CoreHoleFault]
+coreHolesIn facts@Facts {subject} =
+  CoreHole.coreHoleFaults
+    CoreHole.MotionsInStock
+      { CoreHole.toolpath = path subject,
+        CoreHole.motions = unlevelledMotions subject,
+        CoreHole.isRapid = \m -> IntSet.member (number m) (rapidFrames facts),
+        CoreHole.toolsIn = toolsIn facts . number,
+        CoreHole.askedIn = askedIn subject,
+        CoreHole.removals = removalsIn facts,
+        CoreHole.solids =
+          [ solid
+            | Just (Located _ s) <- [Toolpath.stock (Toolpath.setup (path subject))],
+              Just solid <- [stockSolid s]
+          ],
+        CoreHole.allowed = allowed facts,
+        CoreHole.allowedHeight = allowedHeight facts
+      }
 
 -- | Largest radius, and radius within which stock is surely removed, of a cutter in a motion. They
 -- differ only for conical cutters and blades.

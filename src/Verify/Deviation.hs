@@ -35,7 +35,6 @@ import Verify.Edge qualified as Edge
 import Verify.Excess qualified as Excess
 import Verify.Gouge (KeepOut (..))
 import Verify.Gouge qualified as Gouge
-import Verify.MilledThread qualified as MilledThread
 import Verify.MillingJob (MillingJob (..))
 import Verify.MillingJob qualified as MillingJob
 import Verify.Motion (CutterMotion (number))
@@ -48,6 +47,7 @@ import Verify.PointedTool qualified as PointedTool
 import Verify.Proof (ContourProof (ContourProof), Finding (Excess, Gouge, NotFollowed), Witness)
 import Verify.Proof qualified as Proof
 import Verify.Reachability qualified as Reachability
+import Verify.RimWork qualified as RimWork
 import Verify.WrongSide qualified as WrongSide
 
 -- | Pass along a contour, or one of its cuts, with its motions on the tape. A pass around rest
@@ -248,7 +248,7 @@ keepOutOf set job along = \m ->
               required = \e p ->
                 plus (reach job) (Gouge.allowanceAt (side job) (roundingOf m) (edges job) e p)
             }
-        else (MilledThread.keepOut (MotionSet.threadsOf set m) tool) {searchRadius}
+        else (RimWork.keepOut (MotionSet.rimWorksOf set m) tool) {searchRadius}
   where
     -- The bounding paths of an arc lie beside its real path by the difference of its radii.
     roundingOf m = plus pulse (Mm (FastDistance.uneven (Motion.segment m)))

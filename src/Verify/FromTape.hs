@@ -58,7 +58,6 @@ import Verify.Feed qualified as Feed
 import Verify.ForeignCut qualified as ForeignCut
 import Verify.FrameRule qualified as FrameRule
 import Verify.HoleCheck qualified as HoleCheck
-import Verify.MilledThread qualified as MilledThread
 import Verify.Motion (CutterMotion (number, segment))
 import Verify.Motion qualified as Motion
 import Verify.MotionMatch (ClearingFrames (..))
@@ -75,6 +74,7 @@ import Verify.Proof qualified as Proof
 import Verify.ProofSubject (ProofSubject (..))
 import Verify.ProofSubject qualified as Subject
 import Verify.RequiredMove qualified as RequiredMove
+import Verify.RimWork qualified as RimWork
 import Verify.SpindleCutter qualified as SpindleCutter
 import Verify.StartSearch (OtherStart)
 import Verify.StartSearch qualified as StartSearch
@@ -203,7 +203,8 @@ motionSetOf subject passes =
       MotionSet.isTopFaced,
       MotionSet.isPlanned = not (Subject.isDifferent subject),
       MotionSet.toolOf,
-      MotionSet.threadsOf = MilledThread.threadsOf (path subject) . map snd . cuttersIn . number,
+      MotionSet.rimWorksOf =
+        RimWork.rimWorks (path subject) (map fst . SpindleCutter.cuttersOf subject . number),
       MotionSet.motions = motions subject,
       MotionSet.nearby
     }
@@ -218,7 +219,6 @@ motionSetOf subject passes =
         ]
     otherLevels = map level passes <> map fst pocketLevels
     toolOf = Subject.toolIn subject passes
-    cuttersIn = SpindleCutter.cuttersOf subject
     nearby box
       | isAskedOnce = motions subject
       | otherwise = BoxTree.within (BoundingBox.inflate largestTool box) (motionIndex subject)

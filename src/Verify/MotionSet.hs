@@ -13,9 +13,9 @@ import Base.Quantity (Mm (..))
 import Geometry.Index.BoundingBox (BoundingBox)
 import Machine.Machine (Axis (Z), Machine)
 import Machine.Machine qualified as Machine
-import Verify.MilledThread (Thread)
 import Verify.Motion (CutterMotion (..))
 import Verify.Motion qualified as Motion
+import Verify.RimWork (RimWork)
 
 -- | Motions of a tape on a machine.
 data MotionSet = MotionSet
@@ -29,8 +29,8 @@ data MotionSet = MotionSet
     isPlanned :: Bool,
     -- | radius of the cutter in a motion, in mm
     toolOf :: CutterMotion -> Mm,
-    -- | threads that the tool of a motion may mill
-    threadsOf :: CutterMotion -> [Thread],
+    -- | works on cylinders that a motion may do
+    rimWorksOf :: CutterMotion -> [RimWork],
     -- | all motions, in the order of the tape
     motions :: [CutterMotion],
     -- | all motions in which the cutter may touch a box, and perhaps others; in the order of the

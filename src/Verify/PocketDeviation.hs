@@ -42,7 +42,6 @@ import Verify.Deviation qualified as Deviation
 import Verify.Gouge (KeepOut (searchRadius))
 import Verify.Gouge qualified as Gouge
 import Verify.Gouge.Fast qualified as FastGouge
-import Verify.MilledThread qualified as MilledThread
 import Verify.Motion (CutterMotion (number, segment))
 import Verify.Motion qualified as Motion
 import Verify.MotionSet (MotionSet)
@@ -57,6 +56,7 @@ import Verify.Proof
     Witness (Witness),
   )
 import Verify.Proof qualified as Proof
+import Verify.RimWork qualified as RimWork
 
 -- | Motions in the passes of pockets.
 data PassMotions = PassMotions
@@ -113,7 +113,7 @@ examineWalls set PassMotions {isKnown, clears, isIn} pocket isFirst pass = (cont
       | isClearing m = Gouge.constantKeepOut (reach pass)
       | MotionSet.isPlanned set && isInPass m =
         Gouge.constantKeepOut (minus (rimDistance pocket) Pocket.spareRoom)
-      | otherwise = MilledThread.keepOut (MotionSet.threadsOf set m) (MotionSet.toolOf set m)
+      | otherwise = RimWork.keepOut (MotionSet.rimWorksOf set m) (MotionSet.toolOf set m)
     gouges = mapMaybe (\m -> Gouge.gougeOf (keepOut m) (walls pocket) m) examined
     deepest = deepestGouge keepOut pocket examined
     -- Excess

@@ -481,12 +481,12 @@ class Part:
     def _ream(self, at):
         radius = self.rng.choice([1.5, 2, 3])
         slope = 1 / math.tan(math.radians(POINT / 2))
-        # The hole comes first.
+        # The hole comes first, and its full width is deeper than the reamer goes.
         self._tool(f"drill(diameter {2 * radius - 0.2:g})", radius - 0.1, slope)
         places, where = self._holes(at, radius)
         deep = rounded(self.rng, 3, self.depth + 2)
-        self.body.append(f"drill {where} depth {deep + 1:g}")
-        self._hole("drill before ream", places, radius - 0.1, deep + 1, slope)
+        self.body.append(f"drill {where} depth {deep + 2:g}")
+        self._hole("drill before ream", places, radius - 0.1, deep + 2, slope)
         self._tool(f"drill(diameter {2 * radius:g}, angle 180 deg)", radius)
         self.body.append(f"ream {where} depth {deep:g}{self._words('shortest', 'plunge 70')}")
         self._hole("ream", places, radius, deep)
