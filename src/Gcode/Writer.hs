@@ -143,7 +143,7 @@ fileLines :: Context -> FileNumber -> FilePart -> [Text]
 fileLines context number part =
   [percent | hasPercent]
     <> programLine
-    <> map (commentLine context) (headTexts context number part)
+    <> concatMap (commentLines context) (headTexts context number part)
     <> numbered (form context) body
     <> [percent | hasPercent]
   where
@@ -262,16 +262,26 @@ marlinTexts Context {machine, form, heading} part =
     stops = [() | OtherCommand (name, _) <- actions, name `elem` stopNames]
     stopNames = map commandName (programStop (Machine.commandWords machine))
 
--- | A comment with a fixed word before the text. Controls act on some characters and on some first
--- words of comments, so only harmless characters are kept.
-commentLine :: Context -> (Text, Text) -> Text
-commentLine Context {form} (word, text) = case dialect form of
-  Marlin -> cut ("; " <> content)
-  _ -> cut ("(" <> content) <> ")"
+-- | A comment with a fixed word before the text, in as many lines as it needs. Controls act on some
+-- characters and on some first words of comments, so only harmless characters are kept.
+commentLines :: Context -> (Text, Text) -> [Text]
+commentLines Context {form} (word, text) = map comment $ case words' text of
+  [] -> [key <> " "]
+  ws -> divided ws
   where
-    content = word <> ": " <> Text.filter isHarmless (CommentText.plain text)
+    comment content = case dialect form of
+      Marlin -> cut ("; " <> content)
+      _ -> cut ("(" <> content) <> ")"
+    key = word <> ":"
+    words' = Text.words . Text.filter isHarmless . CommentText.plain
     isHarmless c = c `notElem` ("()%;!?~\\^$*[]#" :: String)
     cut = Text.take (mostCharacters form - 1)
+    -- As many words in a line as have room, but at least one.
+    divided ws =
+      let longer = drop 1 (scanl (\line w -> line <> " " <> w) key ws)
+          (now, more) = splitAt (max 1 (length (takeWhile fits longer))) ws
+       in Text.unwords (key : now) : if null more then [] else divided more
+    fits line = Text.length line + 2 <= mostCharacters form
 
 -- | Lines that set every part of the state that the motions need.
 modeLines :: Context -> [Text]

@@ -62,6 +62,12 @@ def is_by_hand(text):
     return any(re.match(r"spindle\s+manual\b", line) for line in statements(text))
 
 
+def settings(text, control):
+    """The options with which a part is compiled: threads are milled where the control cannot tap."""
+    mills = control in ("grbl", "marlin") and re.search(r"^param\s+milled\b", text, re.MULTILINE)
+    return ["--set", "milled=true"] if mills else []
+
+
 def tool_table(numbers):
     """A tool table of LinuxCNC, in which every tool has a length of its own."""
     return "".join(f"T{n} P{n} Z{1 + n / 4} D0.1\n" for n in sorted(set(numbers)))
@@ -130,9 +136,12 @@ class Trial:
     def try_part(self, path, control):
         """Compiles and judges a part for one control."""
         name = os.path.splitext(os.path.basename(path))[0]
+        with open(path, encoding="utf-8") as file:
+            options = settings(file.read(), control)
         with tempfile.TemporaryDirectory() as folder:
             status, _, reports = run(
-                self.partc, "compile", "--format", "short", "-t", control, "-o", folder + "/", path
+                self.partc, *options, "compile", "--format", "short", "-t", control,
+                "-o", folder + "/", path
             )
             files = [os.path.join(folder, name) for name in os.listdir(folder)]
             if status == 0:
@@ -154,7 +163,8 @@ class Trial:
             for complaint in self.complaints(text, control, file):
                 self.mistakes.append(f"{name} for {control}: {complaint}")
         _, table, reports = run(
-            self.partc, "verify", "--format", "short", "-t", control, path, *files
+            self.partc, *settings(text, control), "verify", "--format", "short", "-t", control,
+            path, *files
         )
         frames = frames_of(table)
         if frames is None or not files:
