@@ -46,6 +46,7 @@ import Geometry.Segment qualified as Segment
 import Geometry.Vec (Point)
 import Machine.Machine (Machine)
 import Machine.Machine qualified as Machine
+import Part.CutFeed qualified as CutFeed
 import Part.Part (SpacePoint (..))
 import Part.Part qualified as Part
 import Toolpath.Toolpath (Toolpath)
@@ -384,10 +385,25 @@ pocketFeeds subject passes = case Subject.clearingFrames subject passes of
       ]
   where
     ofPass pocket =
-      Feed.atFeed (machine subject) (Part.feed (Pocket.milling pocket)) []
+      Feed.atFeed (machine subject) (Part.feed (Pocket.milling pocket)) (helixFeeds pocket)
         . programmed subject
         . filter (not . Motion.isVertical)
     isLinking pass m = any (isAlong (machine subject) (segment m)) (Pocket.linkingMoves pass)
+
+-- | The plunge feed of a pocket that is entered by a helix, if it is no faster than the feed. The
+-- last circle of the helix, at the depth of the pass, and the way from there have this feed.
+helixFeeds :: Pocket.Pocket -> [Part.Finish]
+helixFeeds pocket =
+  [ Part.plainFinish {Part.ownFeed = Just down}
+    | Located _ (Part.Helical _ _) <- [Part.descent milling],
+      Just down@(Located _ plunge) <- [Part.plunge milling],
+      Located _ feed <- [Part.feed milling],
+      Just slower <- [CutFeed.perMinute plunge],
+      Just faster <- [CutFeed.perMinute feed],
+      slower <= faster
+  ]
+  where
+    milling = Pocket.milling pocket
 
 -- | Test that both ends of the segment @s@ are within two pulses of the linking move @move@.
 isAlong :: Machine -> Segment -> Segment -> Bool
