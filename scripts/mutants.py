@@ -147,13 +147,19 @@ def descriptions():
     return "\n".join(texts)
 
 
+def is_file(name):
+    """True of a file that a test is named after: its path from the root of the project, or its name alone."""
+    below = os.path.join(TOP, "test", "**", glob.escape(name))
+    return os.path.exists(os.path.join(TOP, name)) or bool(glob.glob(below, recursive=True))
+
+
 def is_tested(law, texts):
-    """True of a law that is the description of a test, or is put together from two: a group and a file of
-    it after a slash, or a name and the words after it."""
+    """True of a law that is the description of a test, or is put together from two: a group and, after a
+    slash, a test or a file of it, or a name and the words after it."""
     if law in texts:
         return True
-    group, _, file = law.partition("/")
-    if group in texts and os.path.exists(os.path.join(TOP, file)):
+    group, _, member = law.partition("/")
+    if member and group in texts and (member in texts or is_file(member)):
         return True
     gaps = [i for i, letter in enumerate(law) if letter == " "]
     return any('"' + law[:i] + '"' in texts and '"' + law[i:] in texts for i in gaps)
