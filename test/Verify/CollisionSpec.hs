@@ -2,6 +2,7 @@
 module Verify.CollisionSpec (spec) where
 
 import Base.Quantity (LengthUnit (Millimetres))
+import Base.Region qualified as Region
 import Base.Result qualified as Result
 import CaseCount (askedCount)
 import Compile (Analysis (Analysis))
@@ -72,7 +73,8 @@ codesOf machine proof =
 folder :: FilePath
 folder = "test/collisions"
 
--- | The proof of a program has the codes and the frames that the first line of the program names.
+-- | The proof of a program has the codes and the frames that the first line of the program names,
+-- and the program has the warnings of moves into material in the lines that it names.
 collides :: FilePath -> Spec
 collides file = it file $ do
   text <- Text.readFile (folder </> file)
@@ -81,13 +83,22 @@ collides file = it file $ do
     Just (path, program) -> do
       let proof = Verify.prove Machines.iso6983 path program (own program)
           found =
-            sort
-              [ Text.pack (code <> " " <> show (fromMaybe 0 (Proof.frameOf finding)))
-                | (code, finding) <- zip (codesOf Machines.iso6983 proof) (Proof.findings proof)
-              ]
-      found `shouldBe` sort (Text.splitOn ", " (Text.drop 3 (Text.takeWhile (/= '\n') text)))
+            [ Text.pack (code <> " " <> show (fromMaybe 0 (Proof.frameOf finding)))
+              | (code, finding) <- zip (codesOf Machines.iso6983 proof) (Proof.findings proof)
+            ]
+      sort (found <> intoMaterial text)
+        `shouldBe` sort (Text.splitOn ", " (Text.drop 3 (Text.takeWhile (/= '\n') text)))
   where
     own = map Frame.frame . Frame.plannedFrames
+
+-- | The warnings of rapid moves into material that is not cleared or drilled yet, with the lines of
+-- the text.
+intoMaterial :: Text -> [Text]
+intoMaterial text =
+  [ "W0402 in line " <> Text.pack (show (1 + Text.count "\n" (Text.take (Region.start r) text)))
+    | Report.Report {Report.code = Report.ReportCode "W0402", Report.place = Report.InSource r} <-
+        Result.warnings (Compile.analyse [] (LoadedProgram.fromText "p.part" text))
+  ]
 
 -- | The toolpath and the planned frames of a text; Nothing if it has an error.
 taped :: Machine -> Text -> Maybe (Toolpath, FrameProgram)
