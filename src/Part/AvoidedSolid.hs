@@ -7,12 +7,13 @@ module Part.AvoidedSolid
     top,
     boundingBox,
     depthOf,
+    deepestPoint,
     heightOver,
   )
 where
 
 import Base.Quantity (Mm (..), minus, plus)
-import Data.List (foldl', sort)
+import Data.List (foldl', sort, sortOn)
 import Data.List.NonEmpty qualified as NonEmpty
 import Geometry.Distance qualified as Distance
 import Geometry.Index.BoundingBox (BoundingBox)
@@ -22,6 +23,7 @@ import Geometry.Index.BoxTree qualified as BoxTree
 import Geometry.Segment (Segment)
 import Geometry.Segment qualified as Segment
 import Geometry.Tolerance qualified as Tolerance
+import Geometry.Vec (Point)
 import Geometry.WindingNumber qualified as WindingNumber
 import Part.CutterBody (Cylinder (Cylinder))
 import Part.CutterBody qualified as CutterBody
@@ -50,26 +52,53 @@ boundingBox = BoxTree.boundingBox . boundary
 -- and in the middle of each part inside. It is at most 0 if the cylinder stays beside the solid;
 -- then it may be any such number.
 depthOf :: AvoidedSolid -> Mm -> Segment -> Mm
-depthOf solid r path = case filter isInside (map (`Segment.at` path) middles) of
-  [] -> minus r (nearest [Distance.distance (Distance.segments path s) | s <- near])
-  inside -> plus r (maximum [nearest (map (Distance.toPoint p) edges) | p <- ends' <> inside])
+depthOf solid r path = case insidePoints solid r path of
+  [] -> minus r (foldl' min far (map Distance.distance (closestTo solid r path)))
+  inside -> plus r (maximum (map (depthAt solid) inside))
+
+-- | The place of the cylinder's axis on the path at which 'depthOf' measures the depth. Nothing if
+-- the cylinder stays beside the solid.
+deepestPoint :: AvoidedSolid -> Mm -> Segment -> Maybe Point
+deepestPoint solid r path = case insidePoints solid r path of
+  [] -> case sortOn Distance.distance (closestTo solid r path) of
+    closest : _ | Distance.distance closest < r -> Just (Distance.nearestPoint closest)
+    _ -> Nothing
+  inside -> Just (last (sortOn (depthAt solid) inside))
+
+-- | The points inside the base of a solid at which the depth of a path is measured.
+insidePoints :: AvoidedSolid -> Mm -> Segment -> [Point]
+insidePoints solid r path = case filter isInside (map (`Segment.at` path) middles) of
+  [] -> []
+  inside -> filter isInside [Segment.start path, Segment.end path] <> inside
   where
-    ends' = filter isInside [Segment.start path, Segment.end path]
-    edges = BoxTree.toList (boundary solid)
-    near = BoxTree.within (BoundingBox.inflate r (BoundingBox.ofSegment path)) (boundary solid)
-    nearest = foldl' min (Mm (1 / 0))
-    isInside p = odd (WindingNumber.about p edges)
+    isInside p = odd (WindingNumber.about p (BoxTree.toList (boundary solid)))
     -- The middles of the parts into which the boundary cuts the path, as fractions.
     middles = zipWith (\a b -> (a + b) / 2) (0 : cuts) (cuts <> [1])
     cuts =
       sort
         [ t
-          | s <- near,
+          | s <- nearPath solid r path,
             p <- Distance.intersections path s,
             let t = Segment.fraction path p,
             t > 0,
             t < 1
         ]
+
+-- | The distance of a point from the boundary of a solid's base.
+depthAt :: AvoidedSolid -> Point -> Mm
+depthAt solid p = foldl' min far (map (Distance.toPoint p) (BoxTree.toList (boundary solid)))
+
+-- | The least distances between a path and the segments of the boundary near it.
+closestTo :: AvoidedSolid -> Mm -> Segment -> [Distance.ClosestPoint]
+closestTo solid r path = map (Distance.segments path) (nearPath solid r path)
+
+-- | The segments of the boundary whose boxes come near the path.
+nearPath :: AvoidedSolid -> Mm -> Segment -> [Segment]
+nearPath solid r path =
+  BoxTree.within (BoundingBox.inflate r (BoundingBox.ofSegment path)) (boundary solid)
+
+far :: Mm
+far = Mm (1 / 0)
 
 -- | The height at which a tool moves over all solids that its way enters: the clearance height
 -- above the highest of them. Nothing if it enters none, or only those that have no top. @path@ is

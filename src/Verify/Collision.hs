@@ -15,34 +15,47 @@ module Verify.Collision
   )
 where
 
-import Base.Quantity (Mm (..), minus, over, plus)
+import Base.Quantity (Mm (..), minus, over, plus, times)
 import Base.Region (Located (..), Region)
+import Data.IntMap.Strict (IntMap)
+import Data.IntMap.Strict qualified as IntMap
 import Data.IntSet (IntSet)
 import Data.IntSet qualified as IntSet
-import Data.List (foldl')
+import Data.List (foldl', sortOn)
 import Data.List.NonEmpty qualified as NonEmpty
-import Data.Maybe (catMaybes, isJust, listToMaybe, mapMaybe)
-import Frame.Frame (Frame, FrameProgram)
+import Data.Maybe (catMaybes, fromMaybe, isJust, listToMaybe, mapMaybe)
+import Data.Set qualified as Set
+import Frame.Frame (Frame, FrameProgram, PlannedFrame)
 import Frame.Frame qualified as Frame
 import Geometry.Carrier (Circle (Circle), Sense (CounterClockwise))
 import Geometry.Distance.Fast qualified as FastDistance
 import Geometry.Index.BoundingBox qualified as BoundingBox
 import Geometry.Index.BoxTree qualified as BoxTree
-import Geometry.Segment (Segment)
+import Geometry.Segment (Segment (Straight))
 import Geometry.Segment qualified as Segment
 import Geometry.Tolerance qualified as Tolerance
+import Geometry.Vec (Point)
 import Geometry.Vec qualified as Vec
 import Machine.Machine (Axis (Z), Machine)
 import Machine.Machine qualified as Machine
 import Machine.ProgramForm (RapidPath (BoxPath))
 import Machine.ProgramForm qualified as ProgramForm
+import Part.AvoidedSolid (AvoidedSolid)
 import Part.AvoidedSolid qualified as AvoidedSolid
 import Part.CutterBody qualified as CutterBody
 import Part.Part (Cutter (..), ToolBody (..))
 import Part.Part qualified as Part
 import Toolpath.Toolpath (Block, Toolpath)
 import Toolpath.Toolpath qualified as Toolpath
-import Verify.CollisionFinding (Collision (..), Contact (..), ToolPart (..))
+import Verify.CollisionFinding
+  ( Collision (..),
+    Contact (..),
+    ContactPlace (..),
+    HoleKind (..),
+    LowTravel (..),
+    SolidContact (..),
+    ToolPart (..),
+  )
 import Verify.CoreHole qualified as CoreHole
 import Verify.CoreHoleFinding (CoreHoleFault)
 import Verify.ForeignCut qualified as ForeignCut
@@ -74,20 +87,23 @@ data Facts = Facts
     -- | depth of a contact, in the plane, that does not count
     allowed :: Mm,
     -- | the same along z
-    allowedHeight :: Mm
+    allowedHeight :: Mm,
+    -- | blocks of the toolpath by their numbers, and by the numbers of their passes
+    blockAt :: ~(IntMap Block),
+    passBlockAt :: ~(IntMap Block)
   }
 
 -- | Cylinder of a tool: the part of the tool, its radius, and the height of its lower end above the
 -- tip.
 data Cylinder = Cylinder ToolPart Mm Mm
 
--- | Findings for the first contacts of a tape: one for each avoided solid, one for a rapid move
--- into stock, one for the shank or the holder in stock.
+-- | Findings for the first contacts of a tape: one for each pair of an avoided solid and a
+-- statement, one for a rapid move into stock, one for the shank or the holder in stock.
 collisions :: ProofSubject -> (CutterMotion -> Mm) -> [Finding]
 collisions subject radiusOf =
   map
     Collides
-    ( mapMaybe (listToMaybe . intoAvoided facts) (Toolpath.avoided (Toolpath.setup (path subject)))
+    ( concatMap (intoAvoided facts) (Toolpath.avoided (Toolpath.setup (path subject)))
         <> take 1 (rapidsIntoStock facts (metal (path subject)))
         <> take 1 (bodiesInStock facts)
     )
@@ -107,8 +123,14 @@ collisions subject radiusOf =
             plus
               (ForeignCut.largestTolerance (path subject))
               (Machine.planeResolution (machine subject)),
-          allowedHeight = Machine.resolutionOf (machine subject) Z
+          allowedHeight = Machine.resolutionOf (machine subject) Z,
+          blockAt = IntMap.fromList (zip [0 ..] blocks'),
+          passBlockAt =
+            IntMap.fromList
+              [(n, b) | (n, k, b) <- zip3 counts (drop 1 counts) blocks', k > n]
         }
+    blocks' = Toolpath.blocks (path subject)
+    counts = Toolpath.passNumbers blocks'
     rapidFrames = rapidsOf subject
     hasBoxPaths =
       fmap ProgramForm.rapidPath (Machine.programForm (machine subject)) == Just BoxPath
@@ -164,33 +186,143 @@ isRapid machine cutsAtRapid f
 
 -- Avoided solids ----------------------------------------------------------------------------------
 
--- | Contacts of the tools with an avoided solid, in the order of the tape.
+-- | Motion that brings a part of the tool into an avoided solid: the lowest height of the tip
+-- there, the depth, the radius of the part with its strays, and the place of the axis.
+data Touch = Touch CutterMotion Cylinder Mm Mm Mm Point
+
+-- | Contacts of the tools with an avoided solid, in the order of the tape: the one where the
+-- program begins, and the first one of each statement.
 intoAvoided :: Facts -> Located Part.Solid -> [Collision]
-intoAvoided facts (Located region solid) =
-  [ collisionOf facts m cylinder low top (AvoidedSolid region top deep r)
-    | m <- BoxTree.within (BoundingBox.inflate widest (AvoidedSolid.boundingBox ready)) index,
-      cylinder@(Cylinder _ r0 above) <- cylindersOf m,
-      let r = plus r0 (strays m),
-      Just (low, part) <- [lowPart (minus (minus top above) allowedHeight) m],
-      let deep = AvoidedSolid.depthOf ready r part,
-      deep > allowed
-  ]
+intoAvoided facts@Facts {subject} located@(Located _ solid) =
+  map atStart begun
+    <> firstOfEach
+      [ (statementOf facts =<< planned, solidCollision facts located planned touch)
+        | (planned, touch) <- plannedWith subject later
+      ]
   where
-    Facts {subject, radiusOf, toolsIn, strays, allowed, allowedHeight} = facts
-    index = motionIndex subject
     ready = AvoidedSolid.prepared solid
-    top = Part.highest solid
-    cylindersOf m =
-      Cylinder CutterPart (radiusOf m) (Mm 0) :
-        [ Cylinder (if above == Mm 0 then CutterPart else HolderPart) r above
-          | (_, c) <- toolsIn (number m),
-            CutterBody.Cylinder r above <- CutterBody.cylindersOf c
-        ]
-    widest =
-      foldl'
-        max
-        (Mm 0)
-        [plus r (strays m) | m <- unlevelledMotions subject, Cylinder _ r _ <- cylindersOf m]
+    touches = touchesOf facts ready (BoxTree.within near (motionIndex subject))
+    near = BoundingBox.inflate (widestIn facts) (AvoidedSolid.boundingBox ready)
+    (begun, later) = case unlevelledMotions subject of
+      m : _ | t : _ <- touchesOf facts ready [standing m] -> ([t], entering (Just m) touches)
+      _ -> ([], entering Nothing touches)
+    standing m =
+      let p = Segment.start (segment m) in m {segment = Straight p p, toHeight = fromHeight m}
+    atStart t@(Touch _ _ _ deep r p) =
+      (solidCollision facts located Nothing t)
+        { asked = Just (region (Toolpath.start (path subject))),
+          contact = AvoidedSolid (solidContact located deep r p AtStart)
+        }
+
+-- | Contacts without those of motions that only leave the solid, because the contact before ended
+-- at their start. If the program begins in the solid, @first@ is its first motion.
+entering :: Maybe CutterMotion -> [Touch] -> [Touch]
+entering first touches = concat (zipWith arriving (begin : map end groups) groups)
+  where
+    groups = NonEmpty.groupBy (\a b -> Motion.isSame (motionOf a) (motionOf b)) touches
+    arriving before group
+      | before == Just (startOf (motionOf (NonEmpty.head group))) = []
+      | otherwise = NonEmpty.toList group
+    begin = startOf <$> first
+    end = Just . Motion.endPosition . motionOf . NonEmpty.head
+    startOf m = (Segment.start (segment m), fromHeight m)
+    motionOf (Touch m _ _ _ _ _) = m
+
+-- | First of the collisions for each statement.
+firstOfEach :: [(Maybe Region, Collision)] -> [Collision]
+firstOfEach = go Set.empty
+  where
+    go seen cs = case cs of
+      [] -> []
+      (key, c) : more
+        | Set.member key seen -> go seen more
+        | otherwise -> c : go (Set.insert key seen) more
+
+-- | Contacts of motions with an avoided solid.
+touchesOf :: Facts -> AvoidedSolid -> [CutterMotion] -> [Touch]
+touchesOf facts@Facts {strays, allowed, allowedHeight} ready motions' =
+  [ Touch m cylinder low deep r p
+    | m <- motions',
+      cylinder@(Cylinder _ r0 above) <- cylindersIn facts m,
+      let r = plus r0 (strays m),
+      Just (low, part) <-
+        [lowPart (minus (minus (AvoidedSolid.top ready) above) allowedHeight) m],
+      let deep = AvoidedSolid.depthOf ready r part,
+      deep > allowed,
+      Just p <- [AvoidedSolid.deepestPoint ready r part]
+  ]
+
+-- | Cylinders of the tools in a motion.
+cylindersIn :: Facts -> CutterMotion -> [Cylinder]
+cylindersIn Facts {radiusOf, toolsIn} m =
+  Cylinder CutterPart (radiusOf m) (Mm 0) :
+    [ Cylinder (if above == Mm 0 then CutterPart else HolderPart) r above
+      | (_, c) <- toolsIn (number m),
+        CutterBody.Cylinder r above <- CutterBody.cylindersOf c
+    ]
+
+-- | Largest distance from its path that a part of a tool reaches in a motion of the tape.
+widestIn :: Facts -> Mm
+widestIn facts@Facts {subject, strays} =
+  foldl'
+    max
+    (Mm 0)
+    [ plus r (strays m)
+      | m <- unlevelledMotions subject,
+        Cylinder _ r _ <- cylindersIn facts m
+    ]
+
+-- | Planned frame of each contact, in the order of the tape. Nothing if the tape has other frames
+-- than planned.
+plannedWith :: ProofSubject -> [Touch] -> [(Maybe PlannedFrame, Touch)]
+plannedWith subject
+  | Subject.isAligned subject = go 1 (Frame.plannedFrames (program subject))
+  | otherwise = map (Nothing,)
+  where
+    go n fs touches = case touches of
+      [] -> []
+      t@(Touch m _ _ _ _ _) : more ->
+        let fs' = drop (number m - n) fs
+         in (listToMaybe fs', t) : go (number m) fs' more
+
+-- | Collision of a contact with an avoided solid.
+solidCollision :: Facts -> Located Part.Solid -> Maybe PlannedFrame -> Touch -> Collision
+solidCollision facts located@(Located _ solid) planned (Touch m cylinder low deep r p) =
+  (collisionOf facts m cylinder low (Part.highest solid) touched)
+    { asked = Frame.origin <$> planned
+    }
+  where
+    touched = AvoidedSolid (solidContact located deep r p place)
+    place = fromMaybe OnTheWay $ do
+      Toolpath.Holing (Located _ drilling) _ <- blockOf facts =<< planned
+      listToMaybe (holesAt drilling)
+    end = Segment.end (segment m)
+    depthAt q = AvoidedSolid.depthOf (AvoidedSolid.prepared solid) r (Straight q q)
+    holesAt drilling =
+      [ AtHole (kindOf (Part.form drilling)) centre (depthAt centre > r)
+        | depthAt end > allowed facts,
+          (centre, away) <-
+            take 1 . sortOn (Vec.distance end . fst) $
+              [ (c, plus mouth (times 2 (Part.drillRadius drilling)))
+                | Part.Hole (Located _ c) _ mouth <- NonEmpty.toList (Part.holes drilling)
+              ],
+          Vec.distance centre end <= away
+      ]
+    kindOf form = case form of
+      Part.Threaded h | not (Part.isInside h) -> ThreadOutside
+      _ -> HoleInside
+
+-- | Contact with an avoided solid: how deep, the distance to keep, the place of the axis.
+solidContact :: Located Part.Solid -> Mm -> Mm -> Point -> ContactPlace -> SolidContact
+solidContact (Located region solid) deep away p place =
+  SolidContact
+    { avoidStatement = region,
+      solidTop = Part.highest solid,
+      depth = deep,
+      distanceToKeep = away,
+      axisAt = p,
+      contactPlace = place
+    }
 
 -- | Collision of a part of the tool in a motion with a body: the lowest height of the tip, and the
 -- top of the body.
@@ -198,7 +330,7 @@ collisionOf :: Facts -> CutterMotion -> Cylinder -> Mm -> Mm -> Contact -> Colli
 collisionOf Facts {subject} m (Cylinder toolPart _ above) low top contact =
   Collision
     { frameOfCollision = number m,
-      asked = askedIn subject m,
+      asked = Frame.origin <$> plannedFrameOf subject m,
       toolPart,
       partAbove = above,
       tipHeight = low,
@@ -206,12 +338,27 @@ collisionOf Facts {subject} m (Cylinder toolPart _ above) low top contact =
       contact
     }
 
--- | Text in the program that asks for a motion. Nothing if the tape has other frames than planned.
-askedIn :: ProofSubject -> CutterMotion -> Maybe Region
-askedIn subject m
-  | not (Subject.isAligned subject) = Nothing
-  | otherwise =
-    Frame.origin <$> listToMaybe (drop (number m - 1) (Frame.plannedFrames (program subject)))
+-- | Planned frame of a motion. Nothing if the tape has other frames than planned.
+plannedFrameOf :: ProofSubject -> CutterMotion -> Maybe PlannedFrame
+plannedFrameOf subject m
+  | Subject.isAligned subject =
+    listToMaybe (drop (number m - 1) (Frame.plannedFrames (program subject)))
+  | otherwise = Nothing
+
+-- | Block of the toolpath to which a planned frame belongs; Nothing for a frame of a move or of a
+-- command.
+blockOf :: Facts -> PlannedFrame -> Maybe Block
+blockOf Facts {blockAt, passBlockAt} planned = case Frame.role planned of
+  Frame.Drilling n -> IntMap.lookup n blockAt
+  role -> Frame.passNumber role >>= (`IntMap.lookup` passBlockAt)
+
+-- | Region of the statement of a planned frame.
+statementOf :: Facts -> PlannedFrame -> Maybe Region
+statementOf facts planned = case blockOf facts planned of
+  Just Toolpath.Cutting {Toolpath.job = Located region _} -> Just region
+  Just Toolpath.Clearing {Toolpath.pocket = Located region _} -> Just region
+  Just (Toolpath.Holing (Located region _) _) -> Just region
+  _ -> Just (Frame.origin planned)
 
 -- | Part of a motion in which the tip is below a height, and the lowest height of the tip there.
 -- Nothing if it is nowhere below.
@@ -282,7 +429,8 @@ outlinesOf block = case block of
 -- | Rapid moves of the cutter into solids of stock.
 rapidsIntoStock :: Facts -> [StockSolid] -> [Collision]
 rapidsIntoStock facts@Facts {subject, rapidFrames} solids =
-  [ collisionOf facts m (Cylinder CutterPart (Mm 0) (Mm 0)) low top (StockLeft p)
+  [ collisionOf facts m (Cylinder CutterPart (Mm 0) (Mm 0)) low top $
+      StockLeft p (lowTravel facts m low top)
     | not (null solids),
       (k, before, m) <- zip3 [0 ..] (Nothing : map Just ms) ms,
       IntSet.member (number m) rapidFrames,
@@ -307,6 +455,20 @@ rapidsIntoStock facts@Facts {subject, rapidFrames} solids =
             [Stock.remaining removals solid (Probe k part r (plus low (allowedHeight facts)) t)]
       ]
 
+-- | Clearance height of the statement of a motion, and the top of the stock above it: the cause of
+-- a contact of a tip that stays at this clearance height or above it.
+lowTravel :: Facts -> CutterMotion -> Mm -> Mm -> Maybe LowTravel
+lowTravel facts@Facts {subject, allowedHeight} m low top = do
+  _ <- Toolpath.stock (Toolpath.setup (path subject))
+  clear <- clearanceOf =<< blockOf facts =<< plannedFrameOf subject m
+  if clear < top && plus low allowedHeight >= clear then Just (LowTravel clear top) else Nothing
+  where
+    clearanceOf block = case block of
+      Toolpath.Cutting {Toolpath.job = Located _ j} -> Part.clearance j
+      Toolpath.Clearing {Toolpath.pocket = Located _ p} -> Part.clearance (Part.wall p)
+      Toolpath.Holing (Located _ d) _ -> Just (Part.travelHeight d)
+      _ -> Nothing
+
 -- | Test that a motion goes straight up from the end of the motion before it, with the same cone.
 -- No part of a cone is wider than the parts above it, so it leaves by the space that it cut.
 risesInItsCut :: Facts -> CutterMotion -> CutterMotion -> Bool
@@ -328,7 +490,7 @@ coreHolesIn facts@Facts {subject} =
         CoreHole.motions = unlevelledMotions subject,
         CoreHole.isRapid = \m -> IntSet.member (number m) (rapidFrames facts),
         CoreHole.toolsIn = toolsIn facts . number,
-        CoreHole.askedIn = askedIn subject,
+        CoreHole.askedIn = fmap Frame.origin . plannedFrameOf subject,
         CoreHole.removals = removalsIn facts,
         CoreHole.solids =
           [ solid
@@ -367,7 +529,7 @@ bodiesInStock :: Facts -> [Collision]
 bodiesInStock facts@Facts {subject}
   | not (any hasBody (catMaybes (SpindleCutter.cutters (path subject)))) = []
   | otherwise =
-    [ collisionOf facts m cylinder low (Stock.top solid) (StockLeft p)
+    [ collisionOf facts m cylinder low (Stock.top solid) (StockLeft p Nothing)
       | (k, m) <- zip [0 ..] (unlevelledMotions subject),
         (t, c) <- toolsIn facts (number m),
         cylinder@(Cylinder _ r above) <- bodyParts c,

@@ -3,6 +3,10 @@ module Verify.CollisionFinding
   ( Collision (..),
     ToolPart (..),
     Contact (..),
+    SolidContact (..),
+    ContactPlace (..),
+    HoleKind (..),
+    LowTravel (..),
     toReport,
   )
 where
@@ -45,60 +49,153 @@ data ToolPart
 
 -- | Body that a tool touches.
 data Contact
-  = -- | a solid that the program avoids: the region of its statement, its top, how deep the tool
-    -- enters it, and the distance from it that the cutter's centre has to keep
-    AvoidedSolid Region Mm Mm Mm
-  | -- | stock: a point at which it still reaches above the lower end of the part
-    StockLeft Point
+  = -- | a solid that the program avoids
+    AvoidedSolid SolidContact
+  | -- | stock: a point at which it still reaches above the lower end of the part, and the reason if
+    -- the statement moves the tool too low
+    StockLeft Point (Maybe LowTravel)
+  deriving stock (Eq, Show)
+
+-- | Contact with a solid that the program avoids.
+data SolidContact = SolidContact
+  { -- | region of its statement
+    avoidStatement :: Region,
+    solidTop :: Mm,
+    -- | how deep the tool enters it
+    depth :: Mm,
+    -- | distance from it that the cutter's centre has to keep
+    distanceToKeep :: Mm,
+    -- | place of the tool's axis
+    axisAt :: Point,
+    contactPlace :: ContactPlace
+  }
+  deriving stock (Eq, Show)
+
+-- | Place of a contact in the program.
+data ContactPlace
+  = -- | the start of the program: the tool is in the solid before its first move
+    AtStart
+  | -- | a hole at which the tool cannot stand: its kind and its centre, and true if the centre is
+    -- within the solid
+    AtHole HoleKind Point Bool
+  | -- | anywhere else
+    OnTheWay
+  deriving stock (Eq, Show)
+
+-- | Kind of a hole, for the words of a report.
+data HoleKind = HoleInside | ThreadOutside
+  deriving stock (Eq, Show)
+
+-- | Clearance height of a statement, and the top of the stock above it.
+data LowTravel = LowTravel {travelClearance :: Mm, stockTop :: Mm}
   deriving stock (Eq, Show)
 
 -- | Report of a collision.
 toReport :: LengthUnit -> Collision -> Report
 toReport unit c = case contact c of
-  AvoidedSolid region top deep away ->
-    (wrong "E0743" (word <> " enters what the program avoids, by " <> inUnit deep))
-      { others = [Label region (extent top)],
-        message = tipSentence,
-        hints = [wayPast unit c top away]
-      }
-  StockLeft p -> case toolPart c of
+  AvoidedSolid touched -> solidReport unit c touched
+  StockLeft p low -> case toolPart c of
     CutterPart ->
-      (wrong "E0744" ("frame " <> number' <> " moves in rapid into stock"))
-        { message = ["At " <> at p <> " there is still stock."] <> tipSentence,
-          hints = ["Move at a feed there, or go over it."]
+      (wrong c "E0744" ("frame " <> frameNumber c <> " moves in rapid into stock"))
+        { message =
+            ["At " <> at p <> " there is still stock."]
+              <> tipSentence unit c
+              <> maybe [] (lowSentence inUnit) low,
+          hints = maybe ["Move at a feed there, or go over it."] (lowHints inUnit) low
         }
     _ ->
-      (wrong "E0745" (word <> " runs into stock"))
+      (wrong c "E0745" (partInFrame c <> " runs into stock"))
         { message =
             ["At " <> at p <> " there is stock above its lower end, " <> lowerEnd <> "."]
-              <> tipSentence,
+              <> tipSentence unit c,
           hints = [longerTool (toolPart c)]
         }
   where
-    wrong code = report Report.Error code (maybe InFile InSource (asked c))
-    number' = Decimal.whole (frameOfCollision c)
     inUnit = Decimal.inUnit unit
     at = Vec.toText unit 3
     lowerEnd = inUnit (plus (tipHeight c) (partAbove c))
-    extent top
-      | isEndless c = "this has no upper end"
-      | otherwise = "this reaches up to " <> inUnit top
-    tipSentence =
-      ["The tip of the tool comes down to " <> inUnit (tipHeight c) <> "." | not (isEndless c)]
-    word = partWord (toolPart c) <> " in frame " <> number'
 
--- | Advice after a collision with a solid: the height above its top, and the distance @away@ from
--- it that the cutter's centre has to keep.
-wayPast :: LengthUnit -> Collision -> Mm -> Mm -> Text
-wayPast unit c top away =
-  "The move passes " <> over <> "beside it if the cutter's centre keeps " <> inUnit away
-    <> " away from it."
+-- | Cause of a rapid move into stock, if the clearance height is below the top of the stock.
+lowSentence :: (Mm -> Text) -> LowTravel -> [Text]
+lowSentence inUnit (LowTravel clear high) =
+  [ "The clearance of " <> inUnit clear <> " is below the top of the stock at " <> inUnit high
+      <> "."
+  ]
+
+-- | Advice if the clearance height is below the top of the stock.
+lowHints :: (Mm -> Text) -> LowTravel -> [Text]
+lowHints inUnit (LowTravel _ high) =
+  ["Raise the clearance and the start above " <> inUnit high <> ", or clear this stock first."]
+
+-- | Report of a contact with an avoided solid.
+solidReport :: LengthUnit -> Collision -> SolidContact -> Report
+solidReport unit c touched =
+  (wrong c "E0743" title)
+    { others = [Label (avoidStatement touched) extent],
+      message = place,
+      hints = wayPast unit c touched
+    }
   where
+    inUnit = Decimal.inUnit unit
+    at = Vec.toText unit 3
+    by = ", by " <> inUnit (depth touched)
+    title = case contactPlace touched of
+      AtStart ->
+        partWord (toolPart c) <> " is in what the program avoids where the program begins" <> by
+      _ -> partInFrame c <> " enters what the program avoids" <> by
+    extent
+      | isEndless c = "this has no upper end"
+      | otherwise = "this reaches up to " <> inUnit (solidTop touched)
+    place = case contactPlace touched of
+      AtStart -> ["The tip of the tool is at " <> inUnit (tipHeight c) <> "." | not (isEndless c)]
+      AtHole kind p isUnder -> (holeAt kind p <> (if isUnder then under else beside)) : tip
+      OnTheWay -> ("At " <> at (axisAt touched) <> " the axis of the tool is too near to it.") : tip
+    holeAt kind p = "The " <> kindWord kind <> " at " <> at p
+    under = " lies under it."
+    beside = " lies so near to it that the tool enters it."
+    tip = tipSentence unit c
+
+-- | Report with the place of a collision in the program.
+wrong :: Collision -> Report.ReportCode -> Text -> Report
+wrong c code = report Report.Error code (maybe InFile InSource (asked c))
+
+-- | Sentence on the height of the tip, unless no height would do.
+tipSentence :: LengthUnit -> Collision -> [Text]
+tipSentence unit c =
+  [ "The tip of the tool comes down to " <> Decimal.inUnit unit (tipHeight c) <> "."
+    | not (isEndless c)
+  ]
+
+partInFrame, frameNumber :: Collision -> Text
+partInFrame c = partWord (toolPart c) <> " in frame " <> frameNumber c
+frameNumber = Decimal.whole . frameOfCollision
+
+-- | Advice after a collision with a solid.
+wayPast :: LengthUnit -> Collision -> SolidContact -> [Text]
+wayPast unit c touched = case contactPlace touched of
+  AtHole kind _ _ ->
+    ["Leave this " <> kindWord kind <> " out, or move the clamp."]
+      <> [longerTool HolderPart | toolPart c == HolderPart]
+  AtStart -> ["Begin " <> above " or higher, or " <> "with the cutter's centre " <> beside <> "."]
+  OnTheWay ->
+    [ "The move passes " <> over <> "beside it if the cutter's centre keeps " <> beside <> "."
+    ]
+  where
+    inUnit = Decimal.inUnit unit
+    beside = inUnit (distanceToKeep touched) <> " away from it"
+    free = inUnit (minus (solidTop touched) (partAbove c))
+    above end
+      | isEndless c = ""
+      | otherwise = "with the tip at " <> free <> end
     over
       | isEndless c = ""
-      | otherwise =
-        "over it if the tip is at " <> inUnit (minus top (partAbove c)) <> " or higher, and "
-    inUnit = Decimal.inUnit unit
+      | otherwise = "over it if the tip is at " <> free <> " or higher, and "
+
+-- | Word for a hole or a thread.
+kindWord :: HoleKind -> Text
+kindWord kind = case kind of
+  HoleInside -> "hole"
+  ThreadOutside -> "thread"
 
 -- | Words for a part of a tool.
 partWord :: ToolPart -> Text
