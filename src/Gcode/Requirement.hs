@@ -7,7 +7,7 @@ where
 
 import Base.Decimal qualified as Decimal
 import Base.PulseVector (Pulses3 (..))
-import Base.Quantity (LengthUnit (..), Mm (..))
+import Base.Quantity (LengthUnit (..), Mm (..), plus, times)
 import Base.Region (Located (..), Region)
 import Data.List (find, mapAccumL)
 import Data.Maybe (isNothing, mapMaybe)
@@ -26,8 +26,9 @@ import Machine.Machine (Machine, MachineName (..), ProgramForm (..))
 import Machine.Machine qualified as Machine
 import Machine.ProgramForm (RapidPath (..), Retract (..))
 import Machine.ProgramForm qualified as ProgramForm
+import Part.Part (SpacePoint (..))
 import Part.Part qualified as Part
-import Report.Report (Report (hints, label, message), at)
+import Report.Report (Label (Label), Report (hints, label, message, others), at)
 import Toolpath.Toolpath (Block, Toolpath (..))
 import Toolpath.Toolpath qualified as Toolpath
 
@@ -40,7 +41,7 @@ refusals machine form heading path program =
     <> toolErrors machine form heading path
     <> safeErrors machine form heading path program
     <> LatheRequirement.refusals machine form path
-    <> [boxError machine region | BoxPath <- [rapidPath form], region <- take 1 (boxMoves path)]
+    <> [boxError machine path m | BoxPath <- [rapidPath form], m <- take 1 (boxMoves path)]
   where
     isFlatMilling = Toolpath.isFlat path && not (Toolpath.isTurned path)
 
@@ -134,7 +135,7 @@ usual path (Mm x) = case Toolpath.unit path of
 lowStart :: Machine -> Toolpath -> FrameProgram -> [Report]
 lowStart machine path program = case Heading.clearances path of
   heights@(_ : _)
-    | down < maximum heights ->
+    | plus down (halfPulse machine) < maximum heights ->
       [ (at (region (start path)) "E0513" "the program begins below its clearance height")
           { label = "at the height " <> written down,
             message =
@@ -186,7 +187,7 @@ safeErrors machine form heading path program = case retract form of
   SafeHeight _ -> case Heading.safeHeightOn form heading of
     Nothing -> [missing]
     Just safe
-      | highest > safe -> [tooLow safe]
+      | highest > plus safe (halfPulse machine) -> [tooLow safe]
       | otherwise -> []
   where
     missing =
@@ -216,30 +217,47 @@ safeErrors machine form heading path program = case retract form of
     highest = Frame.height machine (Pulses3 0 0 (Heading.highest program))
     written = Decimal.inUnit (Toolpath.unit path)
 
+-- | Rapid move for which only the straight line is free: its region, and true if it comes down from
+-- a start above the clearance height.
+data BoxMove = BoxMove Region Bool
+
 -- | Error of a rapid move whose axes arrive one after the other, where only the straight line is
 -- free.
-boxError :: Machine -> Region -> Report
-boxError machine asked =
-  (at asked "E0516" "the axes of this rapid move may arrive one after the other")
-    { message =
-        [ machineName machine
-            <> " does not move along a straight line in rapid, so the tool may hit a clamp or the \
-               \part. Safe are moves of one axis alone, and of x and y together at the clearance \
-               \height or above it."
-        ],
-      hints =
-        [ "Divide it: z alone, then x alone, then y alone.",
-          "Let the program begin at the clearance height: its first move then goes across only."
-        ]
-    }
+boxError :: Machine -> Toolpath -> BoxMove -> Report
+boxError machine path (BoxMove asked comesDown)
+  | comesDown =
+    (wrong (region (start path)))
+      { label = "above the clearance height",
+        message =
+          [ "The first move goes across and down at once, from the start at "
+              <> written begin
+              <> " to the clearance height of "
+              <> written clear
+              <> ".",
+            reason
+          ],
+        others = [Label asked "this asks for the first move"],
+        hints = ["Begin at the clearance height, as in ‘from (0, 0, " <> written clear <> ")’."]
+      }
+  | otherwise =
+    (wrong asked) {message = [reason], hints = ["Divide it: z alone, then x alone, then y alone."]}
+  where
+    wrong place = at place "E0516" "the axes of this rapid move may arrive one after the other"
+    SpacePoint _ begin = value (start path)
+    clear = Heading.highestClearance path
+    written = Decimal.inUnit (Toolpath.unit path)
+    reason =
+      machineName machine
+        <> " does not move along a straight line in rapid, so the tool may hit a clamp or the \
+           \part. Safe are moves of one axis alone, and of x and y together at the clearance \
+           \height or above it."
 
--- | Regions of the rapid moves that change z together with x or y, or that change x and y below the
--- clearance height.
-boxMoves :: Toolpath -> [Region]
+-- | Rapid moves that change z together with x or y, or that change x and y below the clearance
+-- height.
+boxMoves :: Toolpath -> [BoxMove]
 boxMoves path =
-  [ Toolpath.origin m
-    | block <- blocks path,
-      m <- Toolpath.moves block,
+  [ BoxMove (Toolpath.origin m) (isFirst && isMachining block && before > max free behind)
+    | (isFirst, (block, m)) <- zip (True : repeat False) moves,
       Toolpath.pace m == Part.Rapid,
       let (before, behind) = Toolpath.heights m
           from = Segment.start (Toolpath.segment m)
@@ -250,6 +268,14 @@ boxMoves path =
   ]
   where
     free = Heading.highestClearance path
+    moves = [(block, m) | block <- blocks path, m <- Toolpath.moves block]
+    isMachining block = case block of
+      Toolpath.Travelling {} -> False
+      _ -> True
+
+-- | Half of a pulse along z: heights in pulses are rounded by so much at most.
+halfPulse :: Machine -> Mm
+halfPulse machine = times 0.5 (Machine.resolutionOf machine Machine.Z)
 
 -- | Position in pulses at which the tool comes down first.
 landingOf :: FrameProgram -> Pulses3

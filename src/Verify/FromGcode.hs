@@ -120,10 +120,12 @@ demandOf machine form heading program hasContours =
       level = inPicometres <$> levelOf machine form heading program,
       boxLevel =
         let Mm z = freeHeight heading
+            Mm pulse = Machine.resolutionOf machine Machine.Z
          in case rapidPath form of
               StraightPath -> Nothing
               BoxPath | isInfinite z -> Just maxBound
-              BoxPath -> Just (round (z * 1.0e9)),
+              -- The file has the height in whole pulses.
+              BoxPath -> Just (round ((z - pulse / 2) * 1.0e9)),
       isByHand = isSpindleByHand heading,
       hasTurnFeeds = isJust (Machine.turnFeeds (Machine.feeds machine)),
       latheDemand = latheDemandOf machine heading <$> lathe form,
