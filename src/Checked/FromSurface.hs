@@ -44,6 +44,7 @@ import Checked.Syntax (Program (..))
 import Checked.Syntax qualified as Checked
 import Checked.Type (Type)
 import Checked.Type qualified as Type
+import Control.Applicative ((<|>))
 import Control.Monad (unless, when)
 import Data.List.NonEmpty (NonEmpty (..))
 import Data.List.NonEmpty qualified as NonEmpty
@@ -142,8 +143,9 @@ statement env (Located at s) = case s of
   Surface.Units _ -> pure Nothing
   Surface.Machine _ -> pure Nothing
   Surface.Import _ -> pure Nothing
-  Surface.Broken _ n ->
-    Nothing <$ mapM_ (\n' -> Inference.define (value n') (Poisoned (region n'))) n
+  Surface.Broken keyword n ->
+    (if keyword == Just "change" then Just (located Checked.UnknownChange) else Nothing)
+      <$ mapM_ (\n' -> Inference.define (value n') (Poisoned (region n'))) n
   Surface.LetValue n e -> done (valueDefinition n (infer env e))
   Surface.Param n e -> done (valueDefinition n (infer env e))
   Surface.LetFunction n parameters e -> done (functionDefinition env n parameters e)
@@ -207,7 +209,7 @@ statement env (Located at s) = case s of
       (\ps sol -> Checked.Travel (fmap ($ sol) ps))
         <$> mapM (Settings.stop env . atPace motion) stops
   Surface.Change e c place ->
-    one $
+    fmap (<|> Just (located Checked.UnknownChange)) . one $
       (\e' c' place' sol -> Checked.Change (e' sol) (c' sol) (($ sol) <$> place'))
         <$> expect env Type.number e
           <*> cutter env c
@@ -221,6 +223,7 @@ statement env (Located at s) = case s of
   where
     done = fmap (fmap (Located at .))
     one = done . Inference.separately
+    located s' = const (Located at s')
 
 -- | Checks the statements of a block. The names that they define are known only in this block.
 block :: TypingEnvironment -> [Statement] -> Infer [Deferred Checked.Statement]

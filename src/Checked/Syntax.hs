@@ -167,6 +167,8 @@ data Statement_
   | Travel (NonEmpty Stop)
   | -- | the number of the tool, the tool, and the point at which it is changed
     Change Expr Cutter (Maybe Expr)
+  | -- | a tool change with a mistake: the tool is unknown from here on
+    UnknownChange
   | Spindle Spin
   | Coolant Switch
   | Auxiliary Expr

@@ -238,12 +238,15 @@ step state (Located at s) = case s of
       (Machining.stopsOf now (NonEmpty.toList stops))
       (maybe state (perform . Travel) . (NonEmpty.nonEmpty =<<))
   Checked.Change e c place ->
-    keep
+    run
+      withoutTool
+      at
       ( (,,) <$> toolNumber env e
           <*> Machining.cutterOf env c
           <*> Machining.stopsOf now [Checked.Stop p Checked.Rapid | Just p <- [place]]
       )
-      (toolChange state at)
+      (\a left -> (toolChange state at a) {fuel = left})
+  Checked.UnknownChange -> withoutTool
   Checked.Spindle Checked.SpindleStop -> (command SpindleOff) {context = now {modalRate = NoRate}}
   Checked.Spindle Checked.SpindleByHand ->
     (command SpindleByHand) {context = now {modalRate = NoRate}}
@@ -275,6 +278,8 @@ step state (Located at s) = case s of
     env = environment now
     set c = state {context = c}
     changed c = set now {cutter = Just c}
+    -- The tool of a change with a mistake is unknown, so no statement after it is blamed for it.
+    withoutTool = set now {cutter = Nothing}
     perform operation = state {operations' = operation : operations' state}
     performed make = maybe state (perform . make . Located at)
     eachPerformed make found =
