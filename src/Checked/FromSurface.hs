@@ -178,10 +178,10 @@ statement env (Located at s) = case s of
   Surface.SafeHeight e -> one (fmap Checked.SafeHeight <$> expect env Type.len e)
   Surface.Stock e zs ->
     one $
-      (\e' zs' sol -> Checked.Stock (e' sol) (zs' sol)) <$> bounded env e <*> heights env zs
+      (\e' zs' sol -> Checked.Stock (e' sol) (zs' sol)) <$> outlined env e <*> heights env zs
   Surface.Avoid e zs ->
     one $
-      (\e' zs' sol -> Checked.Avoid (e' sol) (zs' sol)) <$> bounded env e <*> heights env zs
+      (\e' zs' sol -> Checked.Avoid (e' sol) (zs' sol)) <$> outlined env e <*> heights env zs
   Surface.Assert e within -> one (fmap Checked.Assert <$> assertion env e within)
   Surface.Mill e side options ->
     one (machining env Checked.Mill "mill" (outlined env e) side options)
@@ -191,7 +191,7 @@ statement env (Located at s) = case s of
   Surface.RestOf e stepover options ->
     one (clearing env Checked.RestOf "rest" (expect env Type.Clearing e) stepover options)
   Surface.Face e stepover options ->
-    one (clearing env Checked.Face "face" (bounded env e) stepover options)
+    one (clearing env Checked.Face "face" (outlined env e) stepover options)
   Surface.Drill points depth options ->
     one $ do
       (columns, points') <- pointOrPoints env points
@@ -449,14 +449,6 @@ meaningOf binding = case binding of
 
 -- Settings, motions and commands
 
--- | Checks an expression that must be a contour or a region.
-outlined :: TypingEnvironment -> Surface.Expr -> Infer (Deferred Checked.Expr)
-outlined env e = do
-  (t, e') <- infer env e
-  found <- Inference.resolved t
-  unless (found == Type.PlaneRegion) (fit Type.Contour e t)
-  pure e'
-
 -- | Checks an expression that must be a point, a list of points or a table. The result has the
 -- further columns of the table, with the types of their cells.
 pointOrPoints ::
@@ -474,9 +466,9 @@ pointOrPoints env e = case value e of
       (Nothing, _) -> fit (Type.ListOf Type.aPoint) e t
     pure (concat rows, e')
 
--- | Checks the outline of a solid: a contour, a region or a circle.
-bounded :: TypingEnvironment -> Surface.Expr -> Infer (Deferred Checked.Expr)
-bounded env e = do
+-- | Checks the outline of a machining statement or of a solid: a contour, a region or a circle.
+outlined :: TypingEnvironment -> Surface.Expr -> Infer (Deferred Checked.Expr)
+outlined env e = do
   (t, e') <- infer env e
   found <- Inference.resolved t
   unless (found `elem` [Type.PlaneRegion, Type.Circle]) (fit Type.Contour e t)

@@ -126,13 +126,15 @@ stop env (Surface.Stop p pace) = do
     Surface.AtFeed f -> (Checked.AtFeed .) <$> cutFeed env f
   pure (\sol -> Checked.Stop (p' sol) (pace' sol))
 
--- | Checks an expression that must be a contour or a list of contours.
+-- | Checks an expression that must be a contour, a circle, or a list of contours or of circles.
 contourOrContours :: TypingEnvironment -> Surface.Expr -> Infer (Deferred Checked.Expr)
 contourOrContours env e@(Located at _) = do
   t <- Inference.freshType
   e' <- expect env t e
   found <- Inference.resolved t
   let wanted = case found of
+        Type.Circle -> Type.Circle
+        Type.ListOf Type.Circle -> found
         Type.ListOf _ -> Type.ListOf Type.Contour
         _ -> Type.Contour
   elsewhere <- Inference.decidedElsewhere [(at, t, found)]

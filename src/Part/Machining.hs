@@ -52,6 +52,7 @@ import Part.PlaneRegion (PlaneRegion (..))
 import Part.PlaneRegion qualified as PlaneRegion
 import Part.PocketCheck qualified as PocketCheck
 import Part.PocketError (PocketMisfit (StepTooWide))
+import Part.RegionBuiltin qualified as RegionBuiltin
 import Part.RegionError (RegionMistake (EmptyRegion))
 import Part.Value (Value (..))
 
@@ -82,7 +83,7 @@ milling ::
   Checked.Settings ->
   Eval (Maybe [Milling])
 milling context work at e side settings = do
-  v <- Expression.evaluate (environment context) e
+  v <- outlineOf (environment context) e
   case work of
     Milled -> checkCutter context at MillStatement
     Turned -> checkCutter context at TurnStatement
@@ -225,6 +226,14 @@ placesOf at tool accuracy settings =
       leadOutSize = region . snd <$> Checked.leadOut settings
     }
 
+-- | Evaluates an outline: a contour or a region. A circle is the region inside it.
+outlineOf :: Environment -> Expr -> Eval Value
+outlineOf env e = do
+  v <- Expression.evaluate env e
+  case v of
+    CircleValue _ -> RegionValue <$> RegionBuiltin.regionOf (region e) v
+    _ -> pure v
+
 contourOf :: Value -> Contour
 contourOf v = case v of
   ContourValue c -> c
@@ -287,7 +296,7 @@ pocketing ::
   Eval (Maybe [Pocketing])
 pocketing context at e step settings = do
   checkCutter context at PocketStatement
-  v <- Expression.evaluate env e
+  v <- outlineOf env e
   islands <- concat <$> Evaluation.gather (map islandsOf (Checked.islands settings))
   case v of
     RegionValue (PlaneRegion parts) -> do
@@ -304,8 +313,11 @@ pocketing context at e step settings = do
     islandsOf i = do
       v <- Expression.evaluate env i
       pure $ case v of
-        ListValue vs -> map (named i . contourOf) (Vector.toList vs)
-        _ -> [named i (contourOf v)]
+        ListValue vs -> map (named i . islandOf i) (Vector.toList vs)
+        _ -> [named i (islandOf i v)]
+    islandOf i v = case v of
+      CircleValue c -> RegionBuiltin.contourOfCircle (region i) c
+      _ -> contourOf v
 
 -- | The index of the part of a region in which an island lies; 0 if it lies in none.
 partAround :: [PlaneRegion.RegionPart] -> PocketCheck.Named -> Int

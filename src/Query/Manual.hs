@@ -209,7 +209,7 @@ clearing :: [(Text, ManualEntry)]
 clearing =
   under
     "language.md#pockets"
-    [ ("pocket", "Clears the inside of a closed contour."),
+    [ ("pocket", "Clears the inside of a closed contour or a circle."),
       ("step", "Gives the stepover of a pocket, or the largest stepdown of a depth.")
     ]
     <> under
@@ -302,7 +302,7 @@ otherSettings =
       ]
     <> under
       "language.md#pockets"
-      [("islands", "Names closed contours inside the pocket that are left uncut.")]
+      [("islands", "Names closed contours or circles inside the pocket that are left uncut.")]
     <> under
       "language.md#drilling"
       [ ("peck", "Gives the depth that is drilled before the drill is lifted."),
