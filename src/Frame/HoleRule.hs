@@ -9,6 +9,7 @@ import Base.Quantity (Feed (..), Mm (..), minus, times)
 import Base.Region (Located (..))
 import Frame.Error (Error (..))
 import Frame.TapError (TapFault (..))
+import Frame.TapError qualified as TapError
 import Machine.Machine (Axis (Z), Machine)
 import Machine.Machine qualified as Machine
 import Machine.ProgramForm (HoleCycles, TapControl (..))
@@ -62,13 +63,16 @@ tapErrors machine path =
       (Nothing, _) -> Just NoTapCycle
       (Just FloatingTap, Nothing) -> Just NeedsFloatingHolder
       (Just SynchronousTap, Nothing) -> Nothing
-      -- The feed word of G84 gives the pitch, so it has to hold it exactly.
       _
         | tapSense t == Part.CounterClockwise -> Just OnlyRightHand
-        | isExact d -> Nothing
-        | otherwise -> Just (UnevenFeed (tapPitch t))
-    isExact d = case CutFeed.perMinute (value (Part.drillFeed d)) of
-      Just (Feed f) ->
-        let n = f / Machine.directStep (Machine.feeds machine)
-         in abs (n - fromIntegral (round n :: Int)) < 1.0e-6
-      Nothing -> True
+        | Just fault <- tapFeed d t, not (TapError.holdsFeed fault) -> Just (UnevenFeed fault)
+        | otherwise -> Nothing
+    tapFeed d t = case (CutFeed.perMinute (value (Part.drillFeed d)), tapPitch t) of
+      (Just (Feed f), Mm pitch) ->
+        Just
+          TapError.TapFeed
+            { TapError.tappedPitch = Mm pitch,
+              TapError.tapSpeed = f / pitch,
+              TapError.feedStep = Machine.directStep (Machine.feeds machine)
+            }
+      _ -> Nothing
