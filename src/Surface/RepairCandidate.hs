@@ -20,7 +20,15 @@ import Surface.BracketRepair (atLineEnd, brackets, broughtForward, calls, intoBr
 import Surface.FailureContext
 import Surface.Keyword qualified as Keyword
 import Surface.LineRepair (lists, modifiers, others, quotations)
-import Surface.Token (Numeral (..), Token (..), Token_ (..), scaledDigits, spelling, unitName)
+import Surface.Token
+  ( Numeral (..),
+    Token (..),
+    Token_ (..),
+    Unit (Millimetre),
+    scaledDigits,
+    spelling,
+    unitName,
+  )
 import Surface.TokenRepair (RepairCandidate (..), TokenChange (..), isSign)
 import Surface.WordMeaning (fillers, meaningsOf, typeWords)
 
@@ -134,7 +142,7 @@ passes f word =
   where
     k = index f
 
--- | A radius where the cutter has a diameter, and the reverse.
+-- | A radius where the cutter has a diameter, and the reverse; the name of a thread.
 measures :: Failing -> Token -> [RepairCandidate]
 measures f t =
   [ RepairCandidate
@@ -146,8 +154,22 @@ measures f t =
       Just (Number n unit) <- [shape <$> at f (k + 1)],
       let doubled = Number (scaled factor n) unit
   ]
+    <> threadSize f (spelling (shape t))
   where
     k = index f
+
+-- | The diameter of a thread that is given by its name, such as M6.
+threadSize :: Failing -> Text -> [RepairCandidate]
+threadSize f word =
+  [ RepairCandidate
+      [Exchange (index f) [Word "diameter", size]]
+      0
+      ("Write ‘diameter " <> spelling size <> "’ instead of " <> quote word)
+    | "diameter" `elem` wanted f,
+      Just digits <- [Text.stripPrefix "M" word],
+      Just amount <- [Decimal.parse digits],
+      let size = Number Numeral {digits, amount} (Just Millimetre)
+  ]
 
 -- | The factor between two measures of a cutter.
 measureFactors :: [((Text, Text), Double)]
@@ -176,7 +198,7 @@ removals f t = case shape t of
   s
     | isSign s ->
       signs f t <> surplus f t <> (if s == Symbol "(" then fillerBefore f else [])
-    | otherwise -> fillerBefore f <> beforeCutter f t
+    | otherwise -> fillerBefore f <> beforeCutter f t <> foreignMeasure f t
   where
     k = index f
 
@@ -251,6 +273,22 @@ fillerBefore f =
       | word `elem` typeWords || word `elem` ["to", "at", "return"] = 1
       | (shape <$> at f (k - 2)) `elem` map (Just . Symbol) ["(", ","] = 0
       | otherwise = 3
+
+-- | The cutter without a measure that it does not have.
+foreignMeasure :: Failing -> Token -> [RepairCandidate]
+foreignMeasure f t =
+  [ RepairCandidate
+      (map Delete [k - 1 .. to - 1])
+      4
+      ("Leave " <> quote (written (slice k to f)) <> " out")
+    | all (`elem` wanted f) ["holder", "stickout"],
+      (shape <$> at f (k - 1)) == Just (Symbol ","),
+      Word _ <- [shape t],
+      to <- [segmentEnd f k],
+      to > k
+  ]
+  where
+    k = index f
 
 -- | The statement without a number or a name before the kind of a cutter.
 beforeCutter :: Failing -> Token -> [RepairCandidate]

@@ -215,7 +215,7 @@ search try best left seen states = case states of
     | Set.member (shapes s) seen -> search try best left seen rest
     | otherwise ->
       let seen' = Set.insert (shapes s) seen
-       in case try (now s) of
+       in case if isSensible (now s) then try (now s) else [(0, [])] of
             [] -> s : search try (Just (spent s)) (left - 1) seen' rest
             (k, wanted) : _
               | k > changedEnd s -> s : search try (Just (spent s)) (left - 1) seen' rest
@@ -233,6 +233,20 @@ search try best left seen states = case states of
               | otherwise -> search try best (left - 1) seen' rest
   where
     shapes s = map shape (now s)
+
+-- | False if a word that takes a value is written anew before a word of the language, which is then
+-- parsed as the name of a value.
+isSensible :: [Token] -> Bool
+isSensible ts = null [() | (a, b) <- zip ts (drop 1 ts), isNew a, takesValue a, isOfLanguage b]
+  where
+    isNew t = end (place t) == start (place t)
+    takesValue t = shape t `elem` map Word measures
+    isOfLanguage t = case shape t of
+      Word w -> w `elem` measures || Keyword.beginsItem w
+      _ -> False
+    measures =
+      Text.words
+        "diameter flutes stickout holder height width angle bevel gear pitch nose step line arc"
 
 -- | The index after the last token of the line on which the last token lies that is followed by
 -- unchanged ones only.

@@ -30,7 +30,7 @@ import Surface.Keyword qualified as Keyword
 import Surface.StatementForm qualified as StatementForm
 import Surface.Token (Token (..), Token_ (..), describe, scaledDigits, unitName)
 import Surface.TokenContext (TokenContext (..), following, previous)
-import Surface.WordMeaning (statementMeant, typeWords)
+import Surface.WordMeaning (meaningsOf, statementMeant, typeWords)
 
 -- | True of a comma between two parts of a number, as in @1,5@.
 isDecimalComma :: Token_ -> TokenContext -> Bool
@@ -75,8 +75,9 @@ advice token around = case (token, shape <$> listToMaybe (before around)) of
     | StatementForm.blockWord around `elem` ["let", "param", "contour", ""] ->
       ["To give a name to a value, write: let name = value"]
   (Word word, Just (Number _ _))
-    | not (Keyword.isReserved word),
+    | not (Keyword.isReserved word || Keyword.beginsItem word),
       not (isLineStart around),
+      null (meaningsOf word),
       Nothing <- unitMeant word ->
       [ "If "
           <> quote word
@@ -99,6 +100,7 @@ unexpectedFixes region token expected around =
       commaFixes token words' around,
       danglingFixes token around expected,
       cutterFixes region token words',
+      teethFixes region token expected,
       sizeFixes expected around
     ]
   where
@@ -176,6 +178,17 @@ sizeFixes expected around = case previous around of
       StatementForm.blockWord around == "tool" ->
       [cutterFix place kind | kind <- ["mill", "drill"]]
   _ -> []
+
+-- | Proposal for the pitch of a thread mill that has only a diameter.
+teethFixes :: Region -> Token_ -> [Text] -> [Fix]
+teethFixes region token expected =
+  [ Fix.proposed $
+      Fix.insertion "Write the pitch of its teeth, for example: , pitch 1 mm" (start region) written
+    | token == Symbol ")",
+      any ("threadmill" `Text.isInfixOf`) expected
+  ]
+  where
+    written = ", pitch 1 mm"
 
 -- | Writes the cutter of a kind around the number of its diameter.
 cutterFix :: Region -> Text -> Fix
