@@ -26,6 +26,7 @@ where
 
 import Base.PulseVector (Pulses3 (..))
 import Base.Quantity (Mm (..), times)
+import Base.Region (Located (..))
 import Control.Motion qualified as Control
 import Data.IntMap.Strict (IntMap)
 import Data.IntMap.Strict qualified as IntMap
