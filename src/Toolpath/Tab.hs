@@ -104,24 +104,24 @@ chosen tabs radius reach bottom path = case tabPlaces tabs of
     nearest place ts = case ts of
       [] -> Nothing
       _ -> Just (minimumBy (comparing (apart place . middle)) ts)
-    around place = mapMaybe (inRoom tabAt place) rooms
+    around place = mapMaybe (inRoom tabAt (times 0.5 (raisedLength tabs radius bottom)) place) rooms
     tabAt = tabOn tabs radius bottom stretches
 
 -- | The tab in a room that is nearest to a place; Nothing if the room is too short. @tabAt@ gives a
 -- tab by its middle. Its half depends a little on the middle, if the room has arcs, so that the
--- middle is found in a few steps.
-inRoom :: (Mm -> Maybe Tab) -> Mm -> (Mm, Mm) -> Maybe Tab
-inRoom tabAt place (from, to) = do
-  c <- foldr (const (>>= settled)) (Just (max from (min to place))) [1 :: Int .. 8]
+-- middle is found in a few steps. The first of them takes @least@, the half on a straight path: at
+-- the end of a room the path may turn too much for a tab.
+inRoom :: (Mm -> Maybe Tab) -> Mm -> Mm -> (Mm, Mm) -> Maybe Tab
+inRoom tabAt least place (from, to) = do
+  c <- foldr (const (>>= settled)) (Just (within least)) [1 :: Int .. 8]
   t <- tabAt c
   let isInside =
         plus (minus (middle t) (half t)) Tolerance.coincident >= from
           && minus (plus (middle t) (half t)) Tolerance.coincident <= to
   if isInside then Just t else Nothing
   where
-    settled c = do
-      t <- tabAt c
-      Just (max (plus from (half t)) (min (minus to (half t)) place))
+    settled c = within . half <$> tabAt c
+    within h = max (plus from h) (min (minus to h) place)
 
 -- | The tabs on a path, in its order, with their middles at the positions of the path nearest to
 -- @middles@. Positions further from the path than @far@ are left out: they are on another part of

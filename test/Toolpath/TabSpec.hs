@@ -8,6 +8,7 @@ import Compile qualified
 import Data.List.NonEmpty qualified as NonEmpty
 import Data.Text (Text)
 import Data.Text qualified as Text
+import Geometry.Distance qualified as Distance
 import Geometry.Segment qualified as Segment
 import Geometry.Vec (Point)
 import Geometry.Vec qualified as Vec
@@ -46,10 +47,21 @@ spec = do
     forAll tabbed $ \t -> withTabs t $ \_ _ places ->
       counterexample (show (t, places)) $
         and
-          [ minimum (map (distance p) (corners t)) >= cutter t + width t / 2
+          [ minimum (map (distance p) (corners t)) >= cutter t + width t / 2 - slack
             | isRectangle t,
               p <- places
           ]
+  it "stand in their own shares, on a circle in the middles of them" $
+    forAll tabbed $ \t -> Text.null (way t) ==> withTabs t $ \_ cut places ->
+      let lengths = map (lengthOf . Toolpath.segment) cut
+          share = sum lengths / fromIntegral (count t)
+          room = if isRectangle t then share / 2 else 0
+       in conjoin
+            [ counterexample (show (t, k, place)) $
+                abs (place - (fromIntegral k - 0.5) * share) <= room + slack
+              | (k, p) <- zip [1 :: Int ..] places,
+                let place = placeAlong p (zip (scanl (+) 0 lengths) cut)
+            ]
   it "stand at the points that the program gives, or are refused with the nearest room" $
     map
       codesOf
@@ -67,10 +79,19 @@ spec = do
     slope t = tall t / tan (angle t)
     heightAt k m = let (Mm a, Mm b) = Toolpath.heights m in a + k * (b - a)
     distance p q = let Mm d = Vec.distance p q in d
+    lengthOf s = let Mm l = Segment.length s in l
+    -- The length of the moves up to the point nearest to @p@.
+    placeAlong p moves =
+      snd . minimum $
+        [ (Distance.toPoint p s, from + Distance.nearestFraction p s * lengthOf s)
+          | (from, m) <- moves,
+            let s = Toolpath.segment m
+        ]
 
 -- | A program with tabs.
 data Tabbed = Tabbed
   { isRectangle :: Bool,
+    isInside :: Bool,
     size :: (Double, Double),
     cutter :: Double,
     width :: Double,
@@ -86,6 +107,7 @@ tabbed :: Gen Tabbed
 tabbed =
   Tabbed
     <$> arbitrary
+    <*> arbitrary
     <*> ((,) <$> choose (70, 120) <*> choose (70, 120))
     <*> choose (3, 10)
     <*> choose (2, 6)
@@ -94,8 +116,12 @@ tabbed =
     <*> choose (1, 4)
     <*> elements ["", "ramp 4", "spiral"]
 
+-- | The corners of the rectangle; inside of it those of the path.
 corners :: Tabbed -> [Point]
-corners t = [Vec.point x y | let (w, h) = size t, x <- [0, w], y <- [0, h]]
+corners t = [Vec.point x y | x <- [inset, w - inset], y <- [inset, h - inset]]
+  where
+    (w, h) = size t
+    inset = if isInside t then cutter t / 2 else 0
 
 textOf :: Tabbed -> Text
 textOf t =
@@ -104,7 +130,12 @@ textOf t =
       if isRectangle t
         then "let edge = rectangle((0, 0), " <> pair (size t) <> ")"
         else "contour edge closed { ccw circle((40, 40), " <> number (fst (size t) / 2) <> ") }",
-      "mill edge outside { depth 6 step 2 " <> way t <> " tabs " <> Text.pack (show (count t))
+      "mill edge "
+        <> (if isInside t then "inside { approach (40, 40) rapid rest allowed" else "outside {")
+        <> " depth 6 step 2 "
+        <> way t
+        <> " tabs "
+        <> Text.pack (show (count t))
         <> " width "
         <> number (width t)
         <> " height "
