@@ -11,6 +11,7 @@ import Compile qualified
 import Data.Either (isLeft)
 import Data.Text (Text)
 import Data.Text qualified as Text
+import Frame.Frame (FrameProgram)
 import Frame.Frame qualified as Frame
 import Gcode.Heading qualified as Heading
 import Gcode.Writer (ToolFile (fileText))
@@ -49,6 +50,20 @@ spec = do
                 counterexample (Text.unpack other) (isProven right wrong === False)
               (a, b) -> counterexample (show (void' a, void' b)) False
   it
+    "a compiler that makes one other depth, diameter, pitch or peck is refused with its own tape \
+    \(catches moves that may be beside those of the statement)"
+    $ property $
+      forAll work $ \w -> not (isTap w)
+        ==> forAll (elements (filter (`notElem` files') (controls w)))
+        $ \machine ->
+          forAll (elements (filter (isSameWork w) (altered w))) $ \other ->
+            case ( compiledFor machine (programOf machine w (statement w)),
+                   compiledFor machine (programOf machine w other)
+                 ) of
+              (Right right, Right wrong) ->
+                counterexample (Text.unpack other) (isProvenWithin right wrong === False)
+              (a, b) -> counterexample (show (void' a, void' b)) False
+  it
     "holes made in the order of the list are refused where the statement asks for a short way \
     \(catches a proof that takes the order from the list for works other than drilling)"
     $ property $
@@ -62,6 +77,8 @@ spec = do
                 (a, b) -> counterexample (show (void' a, void' b)) False
   where
     void' = either Just (const Nothing)
+    isSameWork w other = take 1 (Text.words other) == take 1 (Text.words (statement w))
+    files' = ["linuxcnc-mill", "haas", "fanuc", "grbl", "marlin"]
 
 -- | A work on holes: the tool, the lines before the statement, the statement, and statements with
 -- one other size.
@@ -161,21 +178,32 @@ isProven right wrong = case Machine.programForm (machine right) of
             (machine right)
             form
             (Heading.fromToolpath (toolpath right))
-            (Compile.program (punched right))
+            (framesOf right)
             (map fileText (files (punched wrong)))
-     in not (isLeft readAs) && either (const False) (good . judged form) readAs
-  Nothing ->
-    good
-      ( FromTape.prove
-          (machine right)
-          (toolpath right)
-          (Compile.program (punched right))
-          (map Frame.frame (Frame.plannedFrames (Compile.program (punched wrong))))
-      )
+     in not (isLeft readAs) && either (const False) (isGood . judged form) readAs
+  Nothing -> isGood (provenAs (framesOf right) right wrong)
   where
     judged form = Compile.proveGcode form Nothing right
-    good :: Proof -> Bool
-    good found = null (Proof.findings found) && null (Proof.controlFindings found)
+
+-- | True if the statements of the first program are proven by the toolpath and the tape of the
+-- second one: a compiler that makes these for the first program.
+isProvenWithin :: Compiled -> Compiled -> Bool
+isProvenWithin right wrong = isGood (provenAs (framesOf wrong) right wrong)
+
+-- | Proof of the first program by the tape of the second one. The planned frames are given.
+provenAs :: FrameProgram -> Compiled -> Compiled -> Proof
+provenAs planned right wrong =
+  FromTape.prove
+    (machine right)
+    (toolpath right)
+    planned
+    (map Frame.frame (Frame.plannedFrames (framesOf wrong)))
+
+framesOf :: Compiled -> FrameProgram
+framesOf = Compile.program . punched
+
+isGood :: Proof -> Bool
+isGood found = null (Proof.findings found) && null (Proof.controlFindings found)
 
 -- | A length in mm with one decimal.
 size :: (Int, Int) -> Gen Double
