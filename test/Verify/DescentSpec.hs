@@ -25,8 +25,12 @@ spec =
                 (Machines.jobFor (Machines.named machine) [])
                 (LoadedProgram.fromText "p.part" text)
             codes = [code | r <- Result.errors outcome, ReportCode code <- [Report.code r]]
-         in cover 20 (null codes) "tapes" . counterexample (Text.unpack text <> show codes) $
-              not (any ("E07" `Text.isPrefixOf`) codes)
+            atPoints = "tab at" `Text.isInfixOf` text
+         in cover 20 (null codes) "tapes"
+              . classify (null codes && atPoints) "tapes with tabs at points"
+              . classify ("E0426" `elem` codes && atPoints) "points without room"
+              . counterexample (Text.unpack text <> show codes)
+              $ not (any ("E07" `Text.isPrefixOf`) codes)
   where
     machines =
       ["iso6983", "linuxcnc-mill", "grbl", "haas", "fanuc", "marlin", "lki-un", "n55", "lkp-01f"]
@@ -68,9 +72,7 @@ statement r = do
   pitch <- choose (0.3, 3)
   share <- choose (0.15, 1)
   across <- elements ["", " diameter " <> number (2 * r * share)]
-  tabs <-
-    elements
-      ["", " tabs 2 width 3 height " <> number (deep * 0.4) <> " angle " <> number (angle + 20)]
+  tabs <- tabsOf (" width 3 height " <> number (deep * 0.4) <> " angle " <> number (angle + 20))
   left <- elements ["", " allowance 0.5, 0"]
   retract <- elements ["", " retract (-100, -100) rapid"]
   let depth = " depth " <> number deep <> " step " <> number step
@@ -92,6 +94,18 @@ statement r = do
   where
     -- There is no allowance on a contour.
     left' _ = ""
+
+-- | No tabs, two tabs along the contour, or two at points: near each other, near a corner, or with
+-- room. @size@ has the width, the height and the angle.
+tabsOf :: Text -> Gen Text
+tabsOf size = do
+  x <- choose (12, 36)
+  gap <- choose (1, 30)
+  frequency . zip [1, 1, 2] . map pure $
+    [ "",
+      " tabs 2" <> size,
+      " tab at (" <> number x <> ", 0), (" <> number (x + gap) <> ", 0)" <> size
+    ]
 
 number :: Double -> Text
 number x = Text.pack (showFFloat (Just 4) x "")
