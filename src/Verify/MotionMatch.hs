@@ -21,7 +21,7 @@ module Verify.MotionMatch
 where
 
 import Base.PulseVector (Pulses3)
-import Base.Quantity (Mm (..), Rad (..), minus, plus, times)
+import Base.Quantity (Mm (..), Rad (..), minus, over, plus, times)
 import Control.Monad (foldM)
 import Control.Motion (Motion (..))
 import Control.Motion qualified as Control
@@ -263,7 +263,7 @@ fractionAfter machine r m share = foldM onwards share (samplesOf machine m)
   where
     onwards before at@(Position p z)
       | Vec.distance p (Segment.at t (path r)) <= sideways
-          && MotionSet.isSameHeight machine z (heightAt r t)
+          && (MotionSet.isSameHeight machine z (heightAt r t) || isOnSlope z t)
           && times (before - t) (lengthOf r) <= slack r =
         Just (max before t)
       | otherwise = Nothing
@@ -271,6 +271,18 @@ fractionAfter machine r m share = foldM onwards share (samplesOf machine m)
         t = fractionAt r before at
     -- On a move that changes the height, the fraction @t@ also depends on the height. Rounding the
     -- height to pulses changes @t@, so the point of the path at @t@ may be further from @p@.
+    -- On an arc it depends on the plane alone, where rounding by a pulse changes the height of the
+    -- path by its slope.
+    isOnSlope z t = case path r of
+      Straight _ _ -> False
+      Arc {} ->
+        let Mm d = minus z (heightAt r t)
+            Mm rise = uncurry minus (between r)
+            slope = over (Mm (abs rise)) (Segment.length (path r))
+         in Mm (abs d)
+              <= plus
+                (Machine.resolutionOf machine Z)
+                (times slope (Machine.planeResolution machine))
     sideways
       | uncurry (==) (between r) = slack r
       | otherwise = plus (slack r) (Machine.resolutionOf machine Z)
