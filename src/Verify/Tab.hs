@@ -57,16 +57,17 @@ levelled machine path ms
       }
   where
     -- The top of a tab is the same in all passes, and may be the height of a pass above. There a
-    -- motion belongs to the pass of the motion before it.
-    fitting = snd (mapAccumL fit Nothing ms)
+    -- motion belongs to a pass of the motion before it. A motion may fit several passes, which leave
+    -- different allowances at the same height: the motions after it show which of them it is.
+    fitting = snd (mapAccumL fit [] ms)
     fit before m =
       let ofPass (k, pass) = (k,isOnTop machine pass m,) <$> levelledIn machine pass m
           found = mapMaybe ofPass (zip [0 :: Int ..] passes)
-          same = [m' | (k, _, m') <- found, Just k == before]
-       in case (same, [(k, m') | (k, False, m') <- found]) of
-            (first : _, _) -> (before, Just first)
-            ([], (k, first) : _) -> (Just k, Just first)
-            ([], []) -> (Nothing, Nothing)
+          same = [(k, m') | (k, _, m') <- found, k `elem` before]
+          begun = [(k, m') | (k, False, m') <- found]
+       in case if null same then begun else same of
+            fits@((_, first) : _) -> (map fst fits, Just first)
+            [] -> ([], Nothing)
     fitted = IntSet.fromList (map number (catMaybes fitting))
     passes =
       [ p
