@@ -57,8 +57,8 @@ levelled machine path ms
       }
   where
     -- The top of a tab is the same in all passes, and may be the height of a pass above. There a
-    -- motion belongs to a pass of the motion before it. A motion may fit several passes, which leave
-    -- different allowances at the same height: the motions after it show which of them it is.
+    -- motion belongs to a pass of the motion before it. A motion may fit several passes at the same
+    -- height that leave other allowances. The motions after it show to which of them it belongs.
     fitting = snd (mapAccumL fit [] ms)
     fit before m =
       let ofPass (k, pass) = (k,isOnTop machine pass m,) <$> levelledIn machine pass m
