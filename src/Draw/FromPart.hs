@@ -84,6 +84,15 @@ scene part path =
       rapids = along (== Rapid),
       descents =
         Descent.deepest (concatMap (Descent.ofMoves . downwards) (Toolpath.blocks path)),
+      tabs =
+        nubOrdOn
+          (\(p, _) -> (Vec.x p, Vec.y p))
+          [ (p, Part.tabTop asked)
+            | Toolpath.Cutting {Toolpath.job = Located _ milling, Toolpath.tabs = places} <-
+                Toolpath.blocks path,
+              Just (Located _ asked) <- [Part.tabs milling],
+              p <- places
+          ],
       dimensions =
         nubOrd
           (map (DimensionLine.ofSize (Part.unit part)) (filter isDrawn (Part.assertedSizes part))),

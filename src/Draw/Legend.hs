@@ -95,6 +95,7 @@ symbolEntries styles scene =
     (descends Plunge, LineStyle.descent styles Plunge `under` 1, "plunge"),
     (descends Ramp, LineStyle.descent styles Ramp `under` 1, "ramp"),
     (descends Helix, LineStyle.descent styles Helix `under` 0, "helix"),
+    (not (null (tabs scene)), LineStyle.tab styles `under` 0, "tab"),
     (not (null (cuts scene)), LineStyle.cutter styles 2 `under` 0, "cutter"),
     ( any (\c -> showsCutter c && holderRadius c > 0) (cuts scene),
       \p -> [Svg.ring (holderPen styles) 2 (Vec.shift (Vec.vec 4 0) p)],

@@ -23,6 +23,7 @@ module Draw.LineStyle
     diamond,
     centreMark,
     descent,
+    tab,
   )
 where
 
@@ -288,6 +289,13 @@ centreMark radius p = [bar (Vec.vec arm 0), bar (Vec.vec 0 arm)]
   where
     arm = radius + 1.5
     bar v = Straight (Vec.shift (Vec.negate v) p) (Vec.shift v p)
+
+-- | Symbol of a tab: a bar with a bar across at each end.
+tab :: LineStyles -> Point -> [Svg]
+tab styles p = [Svg.strokes (Pen (linkingColour styles) 0.4 []) (map pure bars)]
+  where
+    bars = [bar (-1.4, 0) (1.4, 0), bar (-1.4, -0.9) (-1.4, 0.9), bar (1.4, -0.9) (1.4, 0.9)]
+    bar (x, y) (x', y') = Straight (Vec.shift (Vec.vec x y) p) (Vec.shift (Vec.vec x' y') p)
 
 -- | Symbol of a descent: a triangle that points down for a plunge, a wedge for a ramp, and a ring
 -- about a dot for a helix.

@@ -123,6 +123,9 @@ upperLayers styles unit page classes scene =
     <> [ Svg.layer "descents" (PlotMove.descentMarks styles scene)
          | not (null (descents scene))
        ]
+    <> [ Svg.layer "tabs" (concatMap (LineStyle.tab styles . fst) (tabs scene))
+         | not (null (tabs scene))
+       ]
     <> [ Svg.layer
            "dimensions"
            (concatMap (DimensionLine.drawn styles (Page.field page)) (dimensions scene))

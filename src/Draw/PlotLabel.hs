@@ -62,6 +62,7 @@ obstacles field scene =
     <> concatMap (NonEmpty.toList . Scene.lines) (cuts scene)
     <> concat [rim r p : LineStyle.cross r p | (r, _, p) <- PlotMove.shownCutters (cuts scene)]
     <> concat [LineStyle.cross 0 (Descent.at d) | d <- descents scene]
+    <> concat [LineStyle.cross 0 p | (p, _) <- tabs scene]
     <> feeds scene
     <> rapids scene
     <> PlotMove.centreMarks scene
@@ -84,16 +85,16 @@ nodeNumbers styles scene =
             foldr1 BoundingBox.union (fmap BoundingBox.ofSegment (Scene.lines cut))
        in max (right - left) (top - bottom) > Label.size
 
--- | Heights at the ends of descents.
+-- | Heights at the ends of descents, and of the tops of tabs.
 depths :: LineStyles -> LengthUnit -> Scene -> [PointLabel]
 depths styles unit scene =
   sparse
-    [ PointLabel (heightText d) (Descent.at d) (Vec.vec 0 (-1)) [2.2, 3.2, 4.5, 6, 8, 11] letters
-      | d <- descents scene
+    [ PointLabel (heightText z) p (Vec.vec 0 (-1)) [2.2, 3.2, 4.5, 6, 8, 11] letters
+      | (p, z) <- [(Descent.at d, Descent.bottom d) | d <- descents scene] <> tabs scene
     ]
   where
     letters = (LineStyle.lettering styles 2.5) {ink = linkingColour styles}
-    heightText d = "z " <> Text.replace "-" "−" (Decimal.shortIn unit 3 (Descent.bottom d))
+    heightText z = "z " <> Text.replace "-" "−" (Decimal.shortIn unit 3 z)
 
 -- | Reasons of rest material, at its middle.
 reasons :: LineStyles -> Scene -> [PointLabel]

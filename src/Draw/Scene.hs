@@ -52,6 +52,9 @@ data Scene = Scene
     rapids :: [Segment],
     -- | points at which the tool has gone down into the material
     descents :: [Descent],
+    -- | tabs: the position of the cutter's centre in the middle, and the height of the top in mm of
+    -- the part
+    tabs :: [(Point, Mm)],
     -- | sizes that the program asserts
     dimensions :: [DimensionLine],
     -- | starting position of the cutter
@@ -128,6 +131,7 @@ onPage page scene =
       feeds = map segment (feeds scene),
       rapids = map segment (rapids scene),
       descents = [d {Descent.at = point (Descent.at d)} | d <- descents scene],
+      tabs = [(point p, top) | (p, top) <- tabs scene],
       dimensions = map (DimensionLine.onPage page) (dimensions scene),
       start = point (start scene),
       spindleAxis = point <$> spindleAxis scene,

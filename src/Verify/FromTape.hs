@@ -295,7 +295,6 @@ unmatchedMotions :: ProofSubject -> [MillingPass] -> [Finding]
 unmatchedMotions subject@ProofSubject {machine, program, frames} passes =
   MotionMatch.mismatches
     machine
-    (not (hasPlannedFeeds subject))
     begin
     (Subject.requiredItems subject (map RequiredMove.alongContour passes))
     (Control.run begin frames)

@@ -74,11 +74,11 @@ further a b = if made b > made a then b else a
 
 -- | Findings for the first motion of a tape that matches no item, or else for the first move that
 -- no motion makes. Empty if all motions match and all moves are made. @begin@ is the position
--- before the first frame, in pulses. If @comparesFeeds@ is true, each motion along a single move
--- also needs the speed of the move.
-mismatches :: Machine -> Bool -> Pulses3 -> [RequiredItem] -> [Motion] -> [Finding]
-mismatches machine comparesFeeds begin list motions =
-  either pure (const []) (matched machine comparesFeeds begin (Vector.fromList list) motions)
+-- before the first frame, in pulses. Each motion along a single move also needs the speed of the
+-- move.
+mismatches :: Machine -> Pulses3 -> [RequiredItem] -> [Motion] -> [Finding]
+mismatches machine begin list motions =
+  either pure (const []) (matched machine True begin (Vector.fromList list) motions)
 
 -- | Frames of the passes of pockets on a tape, by the number of the pass.
 data ClearingFrames = ClearingFrames

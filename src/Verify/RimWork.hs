@@ -10,6 +10,7 @@ where
 
 import Base.Quantity (Mm (..), minus, plus)
 import Base.Region (Located (..))
+import Data.IntMap.Strict qualified as IntMap
 import Data.List.NonEmpty qualified as NonEmpty
 import Geometry.Segment (Segment (Arc, centre, start))
 import Geometry.Segment qualified as Segment
@@ -33,17 +34,19 @@ data RimWork = RimWork Point (Mm -> Mm -> Mm)
 -- There are none if these are several.
 rimWorks :: Toolpath -> (CutterMotion -> [Int]) -> CutterMotion -> [RimWork]
 rimWorks path toolsIn = \m -> case toolsIn m of
-  [t] -> [RimWork p deep | (tool, isFor, RimWork p deep) <- works, tool == t, isFor p m]
+  [t] -> [w | (isFor, w) <- IntMap.findWithDefault [] t works, isFor m]
   _ -> []
   where
     blocks = Toolpath.blocks path
     works =
-      [ (t, isFor, RimWork p deep)
-        | (t, Toolpath.Holing (Located _ d) _) <- zip (Toolpath.toolIndices blocks) blocks,
-          Part.Hole (Located _ p) _ mouth <- NonEmpty.toList (Part.holes d),
-          Just most <- [wallDepth d mouth],
-          (isFor, deep) <- [depthOf d (plus most slack)]
-      ]
+      IntMap.fromListWith
+        (<>)
+        [ (t, [(isFor p, RimWork p deep)])
+          | (t, Toolpath.Holing (Located _ d) _) <- zip (Toolpath.toolIndices blocks) blocks,
+            Part.Hole (Located _ p) _ mouth <- NonEmpty.toList (Part.holes d),
+            Just most <- [wallDepth d mouth],
+            (isFor, deep) <- [depthOf d (plus most slack)]
+        ]
     depthOf d most = case Part.form d of
       Part.Threaded h -> (\_ _ -> True, \_ r -> upTo most (toothDepth h r))
       _ -> (isOnAxis, \tool r -> upTo most (minus tool r))
