@@ -84,15 +84,7 @@ scene part path =
       rapids = along (== Rapid),
       descents =
         Descent.deepest (concatMap (Descent.ofMoves . downwards) (Toolpath.blocks path)),
-      tabs =
-        nubOrdOn
-          (\(p, _) -> (Vec.x p, Vec.y p))
-          [ (p, Part.tabTop asked)
-            | Toolpath.Cutting {Toolpath.job = Located _ milling, Toolpath.tabs = places} <-
-                Toolpath.blocks path,
-              Just (Located _ asked) <- [Part.tabs milling],
-              p <- places
-          ],
+      tabs = tabsOf path,
       dimensions =
         nubOrd
           (map (DimensionLine.ofSize (Part.unit part)) (filter isDrawn (Part.assertedSizes part))),
@@ -293,6 +285,18 @@ leadsOf path =
       Commanding _ -> Nothing
     found milling pass block =
       Just (radius milling, Toolpath.atHeight pass, movesBetween block)
+
+-- | Middles of the tabs, and the heights of their tops, each once.
+tabsOf :: Toolpath -> [(Point, Mm)]
+tabsOf path =
+  nubOrdOn
+    (\(p, _) -> (Vec.x p, Vec.y p))
+    [ (p, Part.tabTop asked)
+      | Toolpath.Cutting {Toolpath.job = Located _ milling, Toolpath.tabs = places} <-
+          Toolpath.blocks path,
+        Just (Located _ asked) <- [Part.tabs milling],
+        p <- places
+    ]
 
 -- | Linking moves of a block among which there may be descents. A drill makes none, and the axis of
 -- a blade swivels it.

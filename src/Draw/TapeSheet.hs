@@ -125,8 +125,8 @@ pages :: TapeMaterial -> Machine -> Text -> [(Int, Row)] -> [Text]
 pages material machine title rows =
   case (geometryOf material (Machine.medium machine), NonEmpty.nonEmpty rows) of
     (Just g, Just some) ->
-      let (pageCount, layers) = drawn machine title g some
-       in [Svg.document (pageArea k) title layers | k <- [1 .. pageCount]]
+      let (pageCount, layersOn) = drawn machine title g some
+       in [Svg.document (pageArea k) title (layersOn (== k)) | k <- [1 .. pageCount]]
     _ -> []
 
 -- Pages -------------------------------------------------------------------------------------------
@@ -149,33 +149,37 @@ stripsBottom = 280
 
 document :: Machine -> Text -> TapeGeometry -> NonEmpty (Int, Row) -> Text
 document machine title g rows =
-  Svg.document (Area 0 0 pageWidth (pageHeight * fromIntegral pageCount)) title layers
+  Svg.document
+    (Area 0 0 pageWidth (pageHeight * fromIntegral pageCount))
+    title
+    (layersOn (const True))
   where
-    (pageCount, layers) = drawn machine title g rows
+    (pageCount, layersOn) = drawn machine title g rows
 
--- | Count of the pages, and the layers of the drawing on all of them.
-drawn :: Machine -> Text -> TapeGeometry -> NonEmpty (Int, Row) -> (Int, [Svg])
+-- | Count of the pages, and the layers of the drawing on the pages with the given numbers, from 1.
+drawn :: Machine -> Text -> TapeGeometry -> NonEmpty (Int, Row) -> (Int, (Int -> Bool) -> [Svg])
 drawn machine title g rows =
   ( pageCount,
-    [ Svg.layer "pages" [Svg.rectangle (Pen "none" 0 []) "white" (pageArea k) | k <- numbers],
-      Svg.layer "paper" (map (paper g) strips),
-      Svg.layer
-        "perforations"
-        [Svg.rectangle (Pen "none" 0 []) "white" a | s <- strips, a <- filmPerforations g (ends s)],
-      Svg.layer "positions" [Svg.dots "#c8bfa6" 0.3 (positions g s) | s <- strips],
-      Svg.layer "sprocket-holes" [Svg.dots LineStyle.black 1.17 (sprockets g s) | s <- strips],
-      Svg.layer "holes" [Svg.dots LineStyle.black 1.83 (punched g s) | s <- strips],
-      Svg.layer "cut-marks" (concatMap (cutMarks g) strips),
-      Svg.layer "frames" (concatMap (frameMarks g) strips),
-      Svg.layer "words" (concatMap (rowTexts g frameColumn) strips),
-      Svg.layer "title" (concatMap (pageTitle machine title g rows pageCount) numbers)
-    ]
+    \isShown -> layers (filter isShown [1 .. pageCount]) (filter (isShown . pageOf) strips)
   )
   where
-    ends s = (left s, top s, bottom g s)
+    layers numbers shown =
+      [ Svg.layer "pages" [Svg.rectangle (Pen "none" 0 []) "white" (pageArea k) | k <- numbers],
+        Svg.layer "paper" (map (paper g) shown),
+        Svg.layer
+          "perforations"
+          [Svg.rectangle (Pen "none" 0 []) "white" a | a <- concatMap perforations shown],
+        Svg.layer "positions" [Svg.dots "#c8bfa6" 0.3 (positions g s) | s <- shown],
+        Svg.layer "sprocket-holes" [Svg.dots LineStyle.black 1.17 (sprockets g s) | s <- shown],
+        Svg.layer "holes" [Svg.dots LineStyle.black 1.83 (punched g s) | s <- shown],
+        Svg.layer "cut-marks" (concatMap (cutMarks g) shown),
+        Svg.layer "frames" (concatMap (frameMarks g) shown),
+        Svg.layer "words" (concatMap (rowTexts g frameColumn) shown),
+        Svg.layer "title" (concatMap (pageTitle machine title g rows pageCount) numbers)
+      ]
+    perforations s = filmPerforations g (left s, top s, bottom g s)
     strips = arranged g (columnWidth g frameColumn rows) rows
     pageCount = maximum (1 : map pageOf strips)
-    numbers = [1 .. pageCount]
     pageOf s = 1 + floor (top s / pageHeight) :: Int
     frameNumbers = mapMaybe (frame . snd) (NonEmpty.toList rows)
     frameColumn = maximum (0 : map (wide . Decimal.whole) frameNumbers)
