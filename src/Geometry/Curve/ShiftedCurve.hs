@@ -198,8 +198,8 @@ footing :: Curve -> CurvePosition -> (SpanPoint, Double)
 footing curve s = case curve of
   Unshifted b -> (BasisCurve.spanPointAt s b, 1)
   Shifted layer lower _ ->
-    let (foot, k) = footing lower (below layer s)
-     in (foot, k * rate layer s)
+    let (foot, k) = footing lower (below layer lower s)
+     in (foot, k * rate layer lower s)
 
 -- | Taylor expansion of the curve's point, in mm, about the position @s@, up to the power @n@ of
 -- the parameter. To evaluate a shift, the curve below is expanded to one power more, except where
@@ -208,7 +208,7 @@ expansionAt :: Int -> Curve -> CurvePosition -> TaylorExpansion
 expansionAt n curve s = case curve of
   Unshifted b -> BasisCurve.expansion n b (BasisCurve.spanPointAt s b)
   Shifted layer lower _ ->
-    fmap (PowerSeries.stretched (rate layer s)) (movedAt n layer lower (below layer s))
+    fmap (PowerSeries.stretched (rate layer lower s)) (movedAt n layer lower (below layer lower s))
 
 -- | Taylor expansion of the point to which a shift moves the position @s@ of the curve below it.
 -- Its parameter is that of the curve below.
@@ -217,7 +217,7 @@ movedAt n layer lower s
   | ShiftDistance.vanishes (distance layer) s = expansionAt n lower s
   | otherwise =
     let near = expansionAt (n + 1) lower s
-     in TaylorExpansion.offset (turnAt n (turns layer) s) (distanceAt n layer lower near s) near
+     in TaylorExpansion.offset (turnAt n (turns layer) lower s) (distanceAt n layer lower near s) near
 
 -- | Expansion of the curve below a shift about a position of the shifted curve, up to the power
 -- @n + 1@, and the shift's distance there in mm, positive to the left, as a power series up to the
@@ -228,8 +228,8 @@ shiftAt n layer lower s =
     PowerSeries.stretched k (distanceAt n layer lower near s')
   )
   where
-    s' = below layer s
-    k = rate layer s
+    s' = below layer lower s
+    k = rate layer lower s
     near = expansionAt (n + 1) lower s'
 
 -- | Power series of a shift's distance in mm, positive to the left, about a position of the curve
@@ -280,14 +280,14 @@ turnsOf curve =
 isSlight :: Double -> Bool
 isSlight a = Rad (abs a) > Tolerance.smoothAngle && Rad (abs a) <= Tolerance.kink
 
--- | Turn of the normal about a position as a power series up to the power @n@, in radians. Nothing
--- if the normal is not turned.
-turnAt :: Int -> NormalTurns -> CurvePosition -> Maybe PowerSeries
-turnAt n (NormalTurns stretches) s
+-- | Turn of the normal of a curve about a position as a power series up to the power @n@, in
+-- radians. Nothing if the normal is not turned.
+turnAt :: Int -> NormalTurns -> Curve -> CurvePosition -> Maybe PowerSeries
+turnAt n (NormalTurns stretches) curve s
   | Map.null stretches = Nothing
   | otherwise = case lookupHome s stretches of
     Just (a, TurnedStretch {upTo, atBegin, atEnd})
-      | home s <= upTo ->
+      | isUpTo curve upTo s ->
         let slope = (atEnd - atBegin) / (upTo - a)
          in Just (PowerSeries.fromList n [atBegin + slope * (parameter s - a), slope])
     _ -> Nothing
@@ -299,21 +299,29 @@ lookupHome s = case approach s of
   Before | home s > 0 -> Map.lookupLT (home s)
   _ -> Map.lookupLE (home s)
 
+-- | True if the home of a position is not past the end of a stretch of a curve. At the end itself
+-- the approach decides, but nothing follows the end of the curve.
+isUpTo :: Curve -> Double -> CurvePosition -> Bool
+isUpTo curve end s = case approach s of
+  After | end < domain curve -> home s < end
+  _ -> home s <= end
+
 -- Corners that a shift joins ----------------------------------------------------------------------
 
 -- | Stretched part of a shifted curve that contains the home of a position, if there is one.
-partAt :: Layer -> CurvePosition -> Maybe StretchedPart
-partAt layer s
+-- @lower@ is the curve below, which has the same range of parameters.
+partAt :: Layer -> Curve -> CurvePosition -> Maybe StretchedPart
+partAt layer lower s
   | Map.null parts = Nothing
   | otherwise = case lookupHome s parts of
-    Just (_, part) | home s <= end part -> Just part
+    Just (_, part) | isUpTo lower (end part) s -> Just part
     _ -> Nothing
   where
     StretchedParts parts = stretched layer
 
 -- | Position on the curve below that a shift moves to a position of the shifted curve.
-below :: Layer -> CurvePosition -> CurvePosition
-below layer s = case partAt layer s of
+below :: Layer -> Curve -> CurvePosition -> CurvePosition
+below layer lower s = case partAt layer lower s of
   Nothing -> s
   Just part@StretchedPart {first, final} ->
     let h = lowered part (home s)
@@ -333,8 +341,8 @@ lowered StretchedPart {begin, end, from, to} u
   | otherwise = from + (u - begin) * ((to - from) / (end - begin))
 
 -- | Derivative of the parameter of the curve below by that of the shifted curve.
-rate :: Layer -> CurvePosition -> Double
-rate layer s = case partAt layer s of
+rate :: Layer -> Curve -> CurvePosition -> Double
+rate layer lower s = case partAt layer lower s of
   Nothing -> 1
   Just StretchedPart {begin, end, from, to} -> (to - from) / (end - begin)
 
