@@ -28,7 +28,7 @@ import Geometry.Segment (Segment (Arc, Straight))
 import Geometry.Segment qualified as Segment
 import Geometry.Vec (Point)
 import Geometry.Vec qualified as Vec
-import Machine.Machine (Axis (..), FeedCode, Machine)
+import Machine.Machine (Axis (..), FeedCode (..), Machine)
 import Machine.Machine qualified as Machine
 import Part.CutFeed qualified as CutFeed
 import Part.Part (SpacePoint (..))
@@ -93,8 +93,13 @@ rounded machine (p, Mm z) = Pulses3 (on X (Vec.x p)) (on Y (Vec.y p)) (on Z z)
 framesOf :: Machine -> Pulses3 -> Move -> [Frame]
 framesOf machine at m = case Toolpath.segment m of
   s@Arc {} -> snd (foldl next (at, []) (inQuadrants s))
-  Straight _ q -> straight speed' at (rounded machine (q, snd (Toolpath.heights m)))
+  Straight _ q
+    | isRapid -> map rapidly (straight (FeedCode 0) at (rounded machine (q, above)))
+    | otherwise -> straight speed' at (rounded machine (q, above))
   where
+    (_, above) = Toolpath.heights m
+    isRapid = Toolpath.pace m == Part.Rapid && Machine.hasRapidMotion machine
+    rapidly f = f {motion = Rapid}
     next (p, done) part =
       let fs =
             arcFrames machine speed' (fst (Toolpath.heights m)) p part

@@ -318,6 +318,18 @@ spec = do
           let u = Generate.parameterOf c t
               n = Curve.domain c
            in close 1e-6 (Curve.pointFrom Before (Curve.reversed c) (n - u)) (Curve.at c u)
+    it
+      "the speed after a break is that of the stretch after it (catches a stretch that counts beyond \
+      \its end)"
+      $ property $
+        forAll (Generate.layered 3 Generate.anyCurve) $ \c ->
+          conjoin
+            [ counterexample (show (u, at, beyond)) (abs (at - beyond) <= 1e-4 * (1 + beyond))
+              | u <- drop 1 (init (Curve.breaks c)),
+                let speed = Vec.norm . firstBy 1 . Curve.expansion After 1 c
+                    -- Joggles are steep, so the speed of the stretch is continued to the break.
+                    (at, beyond) = (speed u, 2 * speed (u + 1e-7) - speed (u + 2e-7))
+            ]
     it "the generator reaches every kind of curve" $
       checkCoverage $
         forAll Generate.anyCurve $ \c ->
