@@ -322,7 +322,7 @@ sharedNames =
         ("Cipher", ["Checked.Syntax", "Surface.Syntax"]),
         ("Cipher_", ["Checked.Syntax", "Surface.Syntax"]),
         ("Corners", ["Offset.RawOffset", "Surface.Syntax"]),
-        ("Cutter", ["Checked.Syntax", "Part.Part", "Surface.Syntax"]),
+        ("Cutter", ["Checked.Syntax", "Part.Cutter", "Surface.Syntax"]),
         ("Descent", ["Draw.Descent", "Part.Part"]),
         ("Slope", ["Toolpath.Descent", "Verify.Descent"]),
         ("TabPlaces", ["Checked.Syntax", "Part.Part", "Surface.Syntax"]),

@@ -135,7 +135,7 @@ stageData =
       ("Report.Report", ["Report.Fix"]),
       ("Surface.Syntax", ["Surface.Token"]),
       ("Checked.Syntax", ["Checked.Dimension", "Checked.Type"]),
-      ("Part.Part", ["Part.Curve", "Part.CutFeed", "Part.Link"]),
+      ("Part.Part", ["Part.Curve", "Part.CutFeed", "Part.Cutter", "Part.Link"]),
       ("Sheet.Sheet", []),
       ("Toolpath.Toolpath", []),
       ( "Machine.Machine",
@@ -150,7 +150,7 @@ stageData =
       ),
       ("Frame.Frame", []),
       ("Tape.Tape", []),
-      ("Verify.Proof", ["Verify.CollisionFinding", "Verify.ControlFault", "Verify.CoreHoleFinding"])
+      ("Verify.Proof", ["Verify.CollisionFinding", "Verify.ControlFault"])
     ]
 
 -- The check ---------------------------------------------------------------------------------

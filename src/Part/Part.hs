@@ -87,6 +87,13 @@ import Geometry.Segment qualified as Segment
 import Geometry.Vec (Point, Vec)
 import Part.Curve (Fitting, PartCurve)
 import Part.CutFeed (CutFeed, SpindleRate)
+import Part.Cutter
+  ( Cutter (..),
+    CutterKind (..),
+    HolderCylinder (..),
+    ToolBody (..),
+    plainBody,
+  )
 import Part.Link (Link)
 
 -- | An evaluated program.
@@ -264,9 +271,10 @@ data Milling = Milling
     clearance :: Maybe Mm,
     -- | the feed of moves down into the material
     plunge :: Maybe (Located CutFeed),
-    -- | the way down into the material, with the region of the setting or of the statement
+    -- | the way down into the material, with the region of the setting, or of the statement if it
+    -- has none
     descent :: Located Descent,
-    -- | the height at which the material begins: 0, or the top of a higher stock
+    -- | the height at which the material begins: 0, or the top of the stock if that is higher
     materialTop :: Mm,
     -- | the material that the statement leaves to hold the part, with the region of the setting
     tabs :: Maybe (Located Tabs),
@@ -322,7 +330,8 @@ data Descent
     Plunging
   | -- | along the path of the pass, at this angle to the plane at most
     Ramping Rad
-  | -- | by a helix: its largest pitch, and the diameter of the centre's path if it is given
+  | -- | by a helix: its largest pitch, and the diameter of the path of the cutter's centre if the
+    -- program gives it
     Helical Mm (Maybe Mm)
   | -- | along a closed path, by this depth at most in each lap, down to the only pass
     Spiralling Mm
@@ -528,73 +537,19 @@ data Command
     Dwell Seconds
   deriving stock (Eq, Show)
 
--- | A tool: its kind, and the radius at which it touches the part.
-data Cutter = Cutter
-  { kind :: CutterKind,
-    cutterRadius :: Mm,
-    -- | the region of the diameter, or of the radius of the nose; absent for a cone
-    cutterSize :: Maybe Region,
-    -- | the direction of the tip of a turning tool, from 1 to 9, as the tool table of a control has
-    -- it; absent if the program does not give it
-    tip :: Maybe Int,
-    -- | the radius at the tip; the same as 'cutterRadius' unless the tool is conical
-    tipRadius :: Mm,
-    body :: ToolBody
-  }
-  deriving stock (Eq, Show)
-
--- | The body of a tool, as far as the program gives it. Above the tip the tool has its radius up to
--- the holder. Lengths are measured from the tip.
-data ToolBody = ToolBody
-  { -- | the length of the cutting edges
-    fluteLength :: Maybe Mm,
-    -- | the length up to the holder
-    stickOut :: Maybe Mm,
-    -- | the cylinders of the holder, from below. The highest one has no end
-    holder :: [HolderCylinder],
-    -- | the angle of the point of a drill or of a cone; absent for other tools
-    pointAngle :: Maybe Rad
-  }
-  deriving stock (Eq, Show)
-
--- | A body of which the program gives nothing.
-plainBody :: ToolBody
-plainBody = ToolBody Nothing Nothing [] Nothing
-
--- | A cylinder of a holder, and the height of its lower end above the tip of the tool.
-data HolderCylinder = HolderCylinder {holderRadius :: Mm, aboveTip :: Mm}
-  deriving stock (Eq, Show)
-
 -- | The points over a region of the plane between two heights. The contours have the region on
 -- their left.
 data Solid = Solid {outlines :: [Contour], lowest :: Mm, highest :: Mm}
   deriving stock (Eq, Show)
 
--- | The kind of a tool.
-data CutterKind
-  = -- | a cutter with a flank parallel to its axis
-    MillingCutter
-  | -- | a cutter with a conical flank that is narrowest at the tip
-    ConeCutter
-  | -- | a cutter with a conical flank that is widest at the tip
-    DovetailCutter
-  | -- | a blade that swivels along the contour. The field is the diameter of the wheel that swivels
-    -- the blade
-    BladeCutter Mm
-  | DrillingCutter
-  | TappingCutter
-  | -- | a thread mill with teeth of this pitch
-    ThreadCutter Mm
-  | TurningCutter
-  deriving stock (Eq, Show)
-
--- | The end of a move without cutting, and the speed of the move. @level@ is the height of the end;
--- if it is absent, the cutter keeps its height.
+-- | The end of a move without cutting, and the speed of the move. @level@ is the height of the end.
+-- If @level@ is absent, the cutter keeps its height during the move.
 data Stop = Stop {place :: Located Point, level :: Maybe Mm, pace :: Pace}
   deriving stock (Eq, Show)
 
 -- | The speed of a move without cutting.
 data Pace
   = Rapid
-  | At (Located CutFeed)
+  | -- | the feed, with the region of the program that sets it
+    At (Located CutFeed)
   deriving stock (Eq, Show)

@@ -1,15 +1,36 @@
--- | Depths to which works on the wall or the rim of a hole cut into the cylinder that is there
--- before.
+-- | Works on the wall or the rim of a hole, and the depths to which they cut into the cylinder that
+-- is there before.
 module Part.WallDepth
-  ( wallDepth,
+  ( worksOn,
+    wallDepth,
     threadDepth,
     reamedShare,
   )
 where
 
-import Base.Quantity (Mm (..), times)
+import Base.Quantity (Mm (..), Rad (..), times)
+import Geometry.Carrier (Side (LeftOf))
+import Geometry.Segment (Segment (Arc, centre))
+import Geometry.Segment qualified as Segment
+import Geometry.Vec (Point)
+import Geometry.Vec qualified as Vec
 import Part.Part (Drilling, HoleForm (..))
 import Part.Part qualified as Part
+
+-- | True for a segment of a contour that a work on holes may cut: an arc about the axis, with the
+-- axis on its free side, or for an outside thread with the material on the side of the axis. @side@
+-- is the side of the segment on which the cutter moves that machines it, in the direction of the
+-- segment; Nothing if the cutter's centre moves on it.
+worksOn :: HoleForm -> Point -> Maybe Side -> Segment -> Bool
+worksOn form axis side s = case (s, side) of
+  (Arc {centre}, Just free)
+    | Rad turned <- Segment.sweep s ->
+      Vec.isNear centre axis && ((turned > 0) == (free == LeftOf)) == isInside
+  _ -> False
+  where
+    isInside = case form of
+      Threaded h -> Part.isInside h
+      _ -> True
 
 -- | The largest depth that a work on holes may cut into a cylinder about its axis, beside the tool
 -- itself. The value is by the radius of the hole at the top of the part. Nothing for works that

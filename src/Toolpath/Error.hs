@@ -22,13 +22,11 @@ import Base.Quantity (LengthUnit, Mm (..), Rad (..), minus, plus, times)
 import Base.Region (Located (..), Region)
 import Data.Maybe (isJust)
 import Data.Text (Text)
-import Data.Text qualified as Text
 import Geometry.Segment (Segment (..))
 import Geometry.Segment qualified as Segment
 import Geometry.Tolerance qualified as Geometry
 import Geometry.Vec (Point)
 import Geometry.Vec qualified as Vec
-import Part.ErrorText (andMore)
 import Part.Part (Contour (contourName), Element (..), Ends (..), MillingPlaces, Side (..))
 import Report.Fix qualified as Fix
 import Report.Report (Label (..), Report (..), at)
@@ -37,6 +35,8 @@ import Toolpath.CompensationReport qualified as CompensationReport
 import Toolpath.DescentReport (DescentFault)
 import Toolpath.DescentReport qualified as DescentReport
 import Toolpath.ErrorFix qualified as ErrorFix
+import Toolpath.HoleReport (HoleCut)
+import Toolpath.HoleReport qualified as HoleReport
 import Toolpath.LinkingMoveError (LinkingMoveError)
 import Toolpath.LinkingMoveError qualified as LinkingMoveError
 import Toolpath.Tab (TabFault)
@@ -70,10 +70,8 @@ data Error
     CutsPart Region Segment Element Mm Intrusion Point (Maybe ContourBeginning)
   | -- | linking moves that cut into the part for one cause
     WrongLink LinkingMoveError
-  | -- | a hole that cuts into a contour: the region of the hole, its centre, the centres of other
-    -- holes of this region that cut in, the element, the depth of the cut, the radius of the drill,
-    -- the region of its diameter
-    HoleCuts Region Point [Point] Element Mm Mm (Maybe Region)
+  | -- | a hole that cuts into a contour
+    HoleCuts HoleCut
   | -- | milling one contour cuts into another: the statement, the region of the element along which
     -- the cutter moves, the element that is cut, the depth of the cut, the position of the centre.
     -- In a pocket the second region is that of the statement, too
@@ -265,34 +263,7 @@ toReport unit err = case err of
   WrongLink fault -> LinkingMoveError.toReport unit fault
   NoDescent fault -> DescentReport.toReport unit fault
   NoTab region long fault -> DescentReport.tabReport unit region long fault
-  HoleCuts region p also element deep drill size ->
-    ( at
-        region
-        "E0413"
-        ( "the hole at " <> Vec.toText unit 3 p <> " cuts into a contour by "
-            <> Decimal.inUnit unit deep
-        )
-    )
-      { others =
-          [ Label
-              (origin element)
-              ( "it cuts "
-                  <> shape unit element
-              )
-            | origin element /= region
-          ],
-        message =
-          ["The drill has a diameter of " <> Decimal.inUnit unit (times 2 drill) <> "."]
-            <> [ "So " <> (case also of [_] -> "does the hole at "; _ -> "do the holes at ")
-                   <> Text.intercalate " and " (map (Vec.toText unit 3) (take 3 also))
-                   <> andMore 3 also
-                   <> "."
-                 | not (null also)
-               ],
-        fixes = ErrorFix.drillFixes unit size (minus drill deep),
-        hints =
-          ["Correct the place of the hole or the contour, or change the tool before drilling."]
-      }
+  HoleCuts cut -> HoleReport.toReport unit cut
   MillsItself region side element depth ends ->
     (at side "E0406" "on this contour the cutter cuts away what is to stand on one side of it")
       { others =

@@ -36,6 +36,8 @@ import Part.Part (Accuracy, Contour (elements), Milling (contour, radius, side),
 import Part.Part qualified as Part
 import Part.WallDepth qualified as WallDepth
 import Toolpath.Error (ContourBeginning (..), Error (..), Intrusion (..))
+import Toolpath.HoleReport (HoleCut (HoleCut, also, centre))
+import Toolpath.HoleReport qualified as HoleReport
 import Toolpath.LinkingMove qualified as LinkingMove
 import Toolpath.LinkingMoveError (CheckedMoves (CheckedMoves), LinkingMoveError (OnOtherSide))
 import Toolpath.LinkingMoveError qualified as LinkingMoveError
@@ -58,13 +60,13 @@ intrusions path = worst (concatMap (intrusionsOfBlock machined) (Toolpath.blocks
     worst errors =
       map deepest (Map.elems (Map.fromListWith (flip (<>)) [(regionOf e, [e]) | e <- errors]))
     deepest errors = case minimumBy (comparing depth) errors of
-      HoleCuts at p _ element deep drill size ->
-        HoleCuts at p (nub [q | HoleCuts _ q _ _ _ _ _ <- errors, q /= p]) element deep drill size
+      HoleCuts cut ->
+        HoleCuts cut {also = nub [q | HoleCuts HoleCut {centre = q} <- errors, q /= centre cut]}
       e -> e
     regionOf e = case e of
       CutsPart at _ _ _ _ _ _ -> at
       WrongLink fault -> LinkingMoveError.place fault
-      HoleCuts at _ _ _ _ _ _ -> at
+      HoleCuts cut -> HoleReport.hole cut
       MillsItself at _ _ _ _ -> at
       MillsAnother at _ _ _ _ -> at
       _ -> Region 0 0
@@ -73,7 +75,7 @@ intrusions path = worst (concatMap (intrusionsOfBlock machined) (Toolpath.blocks
 depth :: Error -> Double
 depth e = case e of
   CutsPart _ _ _ (Mm d) _ _ _ -> -d
-  HoleCuts _ _ _ _ (Mm d) _ _ -> -d
+  HoleCuts HoleCut {HoleReport.depth = Mm d} -> -d
   MillsItself _ _ _ (Mm d) _ -> -d
   MillsAnother _ _ _ (Mm d) _ -> -d
   _ -> 0
@@ -87,25 +89,28 @@ data Intruder = Intruder
     own :: Maybe Int,
     -- | for linking moves: the number of their statement, and the allowance that remains after its
     -- last pass. The moves must not cut into this allowance. Nothing if no allowance is checked
-    leaving :: Maybe (Int, Mm)
+    leaving :: Maybe (Int, Mm),
+    -- | the work on holes to which the moves belong, if they do
+    working :: Maybe Part.Drilling
   }
+
+-- | A tool that keeps its distance from all contours.
+plainIntruder :: Mm -> Intruder
+plainIntruder tool = Intruder {tool, own = Nothing, leaving = Nothing, working = Nothing}
 
 -- | The intrusions of the moves of a block.
 intrusionsOfBlock :: WallIndex -> Block -> [Error]
 intrusionsOfBlock machined b = case b of
   Commanding _ -> []
-  Travelling radius' _ ms -> concatMap (found (Intruder radius' Nothing Nothing)) ms
+  Travelling radius' _ ms -> concatMap (found (plainIntruder radius')) ms
   Holing (Located _ d) ms ->
     let widthOf = widthIn d
      in map
           (asHole d)
-          ( filter
-              (not . isOwnCylinder d)
-              (concat [found (Intruder (widthOf m) Nothing Nothing) m | m <- ms])
-          )
+          (concat [found (plainIntruder (widthOf m)) {working = Just d} m | m <- ms])
   Cutting {} -> intrusionsOfPass machined b
   Clearing {pocket = job@(Located _ p), pass, approach, cleared, retract} ->
-    let clearing = Intruder (radius (Part.wall p)) Nothing Nothing
+    let clearing = plainIntruder (radius (Part.wall p))
         left = Just (number pass, NonEmpty.last (Part.allowances (Part.wall p)))
         -- All contours end at the top of the part, down to which a surface may be faced.
         mayCut m = isNothing (Part.surface p) || uncurry min (Toolpath.heights m) < Mm 0
@@ -120,20 +125,36 @@ intrusionsOfBlock machined b = case b of
     found = intrusionsOfMove machined
     asHole d e = case e of
       CutsPart at move element deep _ _ _ ->
-        HoleCuts at (Segment.end move) [] element deep (Part.drillRadius d) (Part.drillSize d)
+        HoleCuts
+          HoleCut
+            { HoleReport.hole = at,
+              centre = nearestCentre d (Segment.end move),
+              also = [],
+              HoleReport.element = element,
+              HoleReport.depth = deep,
+              HoleReport.drilling = d
+            }
       _ -> e
 
--- | True for a cut into the cylinder on which a statement works: a circle about the centre of a
--- hole. The teeth of a thread and a reamer go below its wall, and a countersink cuts its rim.
-isOwnCylinder :: Part.Drilling -> Error -> Bool
-isOwnCylinder d e = case e of
-  CutsPart _ _ element deep _ _ _
-    | Arc {Segment.centre = c} <- Part.segment element ->
-      or
-        [ Vec.isNear c p && deep <= plus most Tolerance.resolution
-          | Part.Hole (Located _ p) _ mouth <- NonEmpty.toList (Part.holes d),
-            Just most <- [WallDepth.wallDepth d mouth]
-        ]
+-- | The centre of the hole of a statement that is nearest to a point.
+nearestCentre :: Part.Drilling -> Vec.Point -> Vec.Point
+nearestCentre d p =
+  minimumBy
+    (comparing (Vec.distance p))
+    [c | Part.Hole (Located _ c) _ _ <- NonEmpty.toList (Part.holes d)]
+
+-- | True for a cut into the wall on which a statement works: an arc about the centre of a hole. The
+-- teeth of a thread and a reamer go below the wall, and a countersink cuts its rim. @side@ is the
+-- side of the arc on which its cutter moves.
+isOwnCylinder :: Part.Drilling -> Maybe Carrier.Side -> Error -> Bool
+isOwnCylinder d side' e = case e of
+  CutsPart _ _ element deep _ _ _ ->
+    or
+      [ deep <= plus most Tolerance.resolution
+        | Part.Hole (Located _ p) _ mouth <- NonEmpty.toList (Part.holes d),
+          WallDepth.worksOn (Part.form d) p side' (Part.segment element),
+          Just most <- [WallDepth.wallDepth d mouth]
+      ]
   _ -> False
 
 -- | The radius of the tool of a drilling statement during a move. A pointed tool is no wider than
@@ -155,8 +176,8 @@ intrusionsOfPass :: WallIndex -> Block -> [Error]
 intrusionsOfPass machined b = case b of
   Cutting {job = Located at milling, pass, approach = before, descent, cut, retract} ->
     let left = Just (number pass, minimum (Part.allowances milling))
-        linking = Intruder {tool = radius milling, own = Nothing, leaving = left}
-        cutting = Intruder {tool = radius milling, own = Just (number pass), leaving = Nothing}
+        linking = (plainIntruder (radius milling)) {leaving = left}
+        cutting = (plainIntruder (radius milling)) {own = Just (number pass)}
         approach = before <> descent
         (ahead, onto) = splitAt (length approach - 1) approach
         isClear = null . found linking
@@ -302,11 +323,12 @@ intrusionsOfMove machined intruder m
 -- named, and the one that leaves an allowance: the intrusions into the contours of the others are
 -- the same.
 hits :: WallIndex -> Intruder -> Move -> [(Int, Error)]
-hits machined Intruder {tool, own, leaving} m =
+hits machined Intruder {tool, own, leaving, working} m =
   [ (n, e)
     | (wall, element) <- Wall.near (not . null . keeping) reach machined,
       (n, kept) <- keeping wall,
-      Just e <- [hit tool kept (Wall.tolerance wall) m element]
+      Just e <- [hit tool kept (Wall.tolerance wall) m element],
+      not (any (\d -> isOwnCylinder d (Wall.cutterSide wall) e) working)
   ]
   where
     reach =

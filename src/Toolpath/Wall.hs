@@ -15,6 +15,7 @@ where
 
 import Base.Quantity (Mm (..))
 import Base.Region (Located (..))
+import Data.Either (fromRight)
 import Data.Function (on)
 import Data.List (foldl', partition, sortOn)
 import Data.List.NonEmpty (NonEmpty (..))
@@ -23,6 +24,7 @@ import Data.Map.Strict qualified as Map
 import Data.Maybe (isJust, mapMaybe)
 import Data.Set (Set)
 import Data.Set qualified as Set
+import Geometry.Carrier qualified as Carrier
 import Geometry.Index.BoundingBox (BoundingBox)
 import Geometry.Index.BoundingBox qualified as BoundingBox
 import Geometry.Index.BoxTree (BoxTree)
@@ -37,6 +39,7 @@ import Part.Part
     Side (..),
   )
 import Part.Part qualified as Part
+import Toolpath.MillingSide (leadingSide)
 import Toolpath.Swivel qualified as Swivel
 import Toolpath.Toolpath (Block (..))
 import Toolpath.Toolpath qualified as Toolpath
@@ -56,7 +59,10 @@ data Wall = Wall
   { -- | the numbers of the statements
     machinedBy :: Set Int,
     -- | the tolerance of each of these statements
-    tolerance :: Accuracy
+    tolerance :: Accuracy,
+    -- | the side of the contours on which the cutter moves, in the direction of travel; Nothing if
+    -- the statement is wrong
+    cutterSide :: Maybe Carrier.Side
   }
 
 -- | At most 'groupSize' consecutive elements of a wall, which share one bounding box. A box for
@@ -116,6 +122,8 @@ data Machining = Machining
   { -- | number of the statement
     statement :: Int,
     milling :: Milling,
+    -- | the side of the contours on which the cutter moves, in the direction of travel
+    leading :: Maybe Carrier.Side,
     -- | the elements of each contour
     machined :: [NonEmpty Element]
   }
@@ -126,7 +134,7 @@ machiningOf :: Block -> Maybe Machining
 machiningOf b = case b of
   Cutting {job = Located _ milling, pass}
     | value (side milling) /= On ->
-      Just (Machining (Toolpath.number pass) milling [elements (contour milling)])
+      Just (Machining (Toolpath.number pass) milling (sideOf milling) [elements (contour milling)])
     | otherwise -> Nothing
   Clearing {pocket = Located _ p}
     -- The cutter runs over the contours of a surface.
@@ -136,15 +144,18 @@ machiningOf b = case b of
       ( Machining
           (Toolpath.number pass)
           (Part.wall p)
+          (sideOf (Part.wall p))
           (map elements (contour (Part.wall p) : Part.islands p))
       )
   Travelling {} -> Nothing
   Holing _ _ -> Nothing
   Commanding _ -> Nothing
+  where
+    sideOf milling = fromRight Nothing (leadingSide milling)
 
 -- | Makes one wall of statements whose contours are equal, element by element, and whose tolerances
--- are equal. Each wall comes with the elements of its contours. Only contours that begin at the
--- same point are compared.
+-- and sides are equal. Each wall comes with the elements of its contours. Only contours that begin
+-- at the same point are compared.
 sharedWalls :: [Machining] -> [(Wall, [NonEmpty Element])]
 sharedWalls machinings = concatMap separated (Map.elems byStart)
   where
@@ -158,12 +169,18 @@ sharedWalls machinings = concatMap separated (Map.elems byStart)
       [] -> []
       m : more ->
         let (same, others) = partition (isSame m) more
-         in ( Wall (Set.fromList (map statement (m : same))) (Part.tolerance (milling m)),
+         in ( Wall
+                { machinedBy = Set.fromList (map statement (m : same)),
+                  tolerance = Part.tolerance (milling m),
+                  cutterSide = leading m
+                },
               machined m
             ) :
             separated others
     isSame m n =
-      Part.tolerance (milling m) == Part.tolerance (milling n) && machined m == machined n
+      Part.tolerance (milling m) == Part.tolerance (milling n)
+        && leading m == leading n
+        && machined m == machined n
 
 -- | The elements whose boxes meet a box, each with its wall, if @holds@ is true of the wall. The
 -- elements of a wall are in the order of its contours.

@@ -56,12 +56,12 @@ import Verify.CollisionFinding
     SolidContact (..),
     ToolPart (..),
   )
+import Verify.CoreHole (CoreHoleFault (..))
 import Verify.CoreHole qualified as CoreHole
-import Verify.CoreHoleFinding (CoreHoleFault)
 import Verify.ForeignCut qualified as ForeignCut
 import Verify.Motion (CutterMotion (..))
 import Verify.Motion qualified as Motion
-import Verify.Proof (Finding (Collides, NeedsHole))
+import Verify.Proof (Finding (Collides))
 import Verify.ProofSubject (ProofSubject (..))
 import Verify.ProofSubject qualified as Subject
 import Verify.RemainingStock
@@ -106,8 +106,8 @@ collisions subject radiusOf =
     ( concatMap (intoAvoided facts) (Toolpath.avoided (Toolpath.setup (path subject)))
         <> take 1 (rapidsIntoStock facts (metal (path subject)))
         <> take 1 (bodiesInStock facts)
+        <> coreHolesIn facts
     )
-    <> map NeedsHole (coreHolesIn facts)
   where
     facts =
       Facts
@@ -186,9 +186,19 @@ isRapid machine cutsAtRapid f
 
 -- Avoided solids ----------------------------------------------------------------------------------
 
--- | Motion that brings a part of the tool into an avoided solid: the lowest height of the tip
--- there, the depth, the radius of the part with its strays, and the place of the axis.
-data Touch = Touch CutterMotion Cylinder Mm Mm Mm Point
+-- | Motion that brings a part of the tool into an avoided solid.
+data Touch = Touch
+  { touchMotion :: CutterMotion,
+    cylinder :: Cylinder,
+    -- | lowest height of the tip in the solid
+    lowestTip :: Mm,
+    -- | how deep the part enters the solid
+    entered :: Mm,
+    -- | radius of the part with its strays
+    reached :: Mm,
+    -- | place of the tool's axis
+    axis :: Point
+  }
 
 -- | Contacts of the tools with an avoided solid, in the order of the tape: the one where the
 -- program begins, and the first one of each statement.
@@ -208,10 +218,10 @@ intoAvoided facts@Facts {subject} located@(Located _ solid) =
       _ -> ([], entering Nothing touches)
     standing m =
       let p = Segment.start (segment m) in m {segment = Straight p p, toHeight = fromHeight m}
-    atStart t@(Touch _ _ _ deep r p) =
+    atStart t =
       (solidCollision facts located Nothing t)
         { asked = Just (region (Toolpath.start (path subject))),
-          contact = AvoidedSolid (solidContact located deep r p AtStart)
+          contact = AvoidedSolid (solidContact located t AtStart)
         }
 
 -- | Contacts without those of motions that only leave the solid, because the contact before ended
@@ -219,14 +229,13 @@ intoAvoided facts@Facts {subject} located@(Located _ solid) =
 entering :: Maybe CutterMotion -> [Touch] -> [Touch]
 entering first touches = concat (zipWith arriving (begin : map end groups) groups)
   where
-    groups = NonEmpty.groupBy (\a b -> Motion.isSame (motionOf a) (motionOf b)) touches
+    groups = NonEmpty.groupBy (\a b -> Motion.isSame (touchMotion a) (touchMotion b)) touches
     arriving before group
-      | before == Just (startOf (motionOf (NonEmpty.head group))) = []
+      | before == Just (startOf (touchMotion (NonEmpty.head group))) = []
       | otherwise = NonEmpty.toList group
     begin = startOf <$> first
-    end = Just . Motion.endPosition . motionOf . NonEmpty.head
+    end = Just . Motion.endPosition . touchMotion . NonEmpty.head
     startOf m = (Segment.start (segment m), fromHeight m)
-    motionOf (Touch m _ _ _ _ _) = m
 
 -- | First of the collisions for each statement.
 firstOfEach :: [(Maybe Region, Collision)] -> [Collision]
@@ -241,15 +250,15 @@ firstOfEach = go Set.empty
 -- | Contacts of motions with an avoided solid.
 touchesOf :: Facts -> AvoidedSolid -> [CutterMotion] -> [Touch]
 touchesOf facts@Facts {strays, allowed, allowedHeight} ready motions' =
-  [ Touch m cylinder low deep r p
-    | m <- motions',
-      cylinder@(Cylinder _ r0 above) <- cylindersIn facts m,
-      let r = plus r0 (strays m),
-      Just (low, part) <-
-        [lowPart (minus (minus (AvoidedSolid.top ready) above) allowedHeight) m],
-      let deep = AvoidedSolid.depthOf ready r part,
-      deep > allowed,
-      Just p <- [AvoidedSolid.deepestPoint ready r part]
+  [ Touch {touchMotion, cylinder, lowestTip, entered, reached, axis}
+    | touchMotion <- motions',
+      cylinder@(Cylinder _ r above) <- cylindersIn facts touchMotion,
+      let reached = plus r (strays touchMotion),
+      Just (lowestTip, part) <-
+        [lowPart (minus (minus (AvoidedSolid.top ready) above) allowedHeight) touchMotion],
+      let entered = AvoidedSolid.depthOf ready reached part,
+      entered > allowed,
+      Just axis <- [AvoidedSolid.deepestPoint ready reached part]
   ]
 
 -- | Cylinders of the tools in a motion.
@@ -281,18 +290,21 @@ plannedWith subject
   where
     go n fs touches = case touches of
       [] -> []
-      t@(Touch m _ _ _ _ _) : more ->
-        let fs' = drop (number m - n) fs
-         in (listToMaybe fs', t) : go (number m) fs' more
+      t : more ->
+        let m = number (touchMotion t)
+            fs' = drop (m - n) fs
+         in (listToMaybe fs', t) : go m fs' more
 
 -- | Collision of a contact with an avoided solid.
 solidCollision :: Facts -> Located Part.Solid -> Maybe PlannedFrame -> Touch -> Collision
-solidCollision facts located@(Located _ solid) planned (Touch m cylinder low deep r p) =
-  (collisionOf facts m cylinder low (Part.highest solid) touched)
+solidCollision facts located@(Located _ solid) planned touch =
+  (collisionOf facts m (cylinder touch) (lowestTip touch) (Part.highest solid) touched)
     { asked = Frame.origin <$> planned
     }
   where
-    touched = AvoidedSolid (solidContact located deep r p place)
+    m = touchMotion touch
+    r = reached touch
+    touched = AvoidedSolid (solidContact located touch place)
     place = fromMaybe OnTheWay $ do
       Toolpath.Holing (Located _ drilling) _ <- blockOf facts =<< planned
       listToMaybe (holesAt drilling)
@@ -312,15 +324,15 @@ solidCollision facts located@(Located _ solid) planned (Touch m cylinder low dee
       Part.Threaded h | not (Part.isInside h) -> ThreadOutside
       _ -> HoleInside
 
--- | Contact with an avoided solid: how deep, the distance to keep, the place of the axis.
-solidContact :: Located Part.Solid -> Mm -> Mm -> Point -> ContactPlace -> SolidContact
-solidContact (Located region solid) deep away p place =
+-- | Contact with an avoided solid at a place.
+solidContact :: Located Part.Solid -> Touch -> ContactPlace -> SolidContact
+solidContact (Located region solid) Touch {entered, reached, axis} place =
   SolidContact
     { avoidStatement = region,
       solidTop = Part.highest solid,
-      depth = deep,
-      distanceToKeep = away,
-      axisAt = p,
+      depth = entered,
+      distanceToKeep = reached,
+      axisAt = axis,
       contactPlace = place
     }
 
@@ -482,24 +494,29 @@ risesInItsCut facts m before =
       _ -> False
 
 -- | Taps, reamers and thread mills that run into the stock of the program.
-coreHolesIn :: Facts -> [CoreHoleFault]
+coreHolesIn :: Facts -> [Collision]
 coreHolesIn facts@Facts {subject} =
-  CoreHole.coreHoleFaults
-    CoreHole.MotionsInStock
-      { CoreHole.toolpath = path subject,
-        CoreHole.motions = unlevelledMotions subject,
-        CoreHole.isRapid = \m -> IntSet.member (number m) (rapidFrames facts),
-        CoreHole.toolsIn = toolsIn facts . number,
-        CoreHole.askedIn = fmap Frame.origin . plannedFrameOf subject,
-        CoreHole.removals = removalsIn facts,
-        CoreHole.solids =
-          [ solid
-            | Just (Located _ s) <- [Toolpath.stock (Toolpath.setup (path subject))],
-              Just solid <- [stockSolid s]
-          ],
-        CoreHole.allowed = allowed facts,
-        CoreHole.allowedHeight = allowedHeight facts
-      }
+  [ collisionOf facts coreMotion (Cylinder CutterPart needed (Mm 0)) coreLowest (Mm 0) $
+      CoreLeft coreTool needed stockAt
+    | CoreHoleFault {coreMotion, coreTool, needed, coreLowest, stockAt} <-
+        CoreHole.coreHoleFaults motionsInStock
+  ]
+  where
+    motionsInStock =
+      CoreHole.MotionsInStock
+        { CoreHole.toolpath = path subject,
+          CoreHole.motions = unlevelledMotions subject,
+          CoreHole.isRapid = \m -> IntSet.member (number m) (rapidFrames facts),
+          CoreHole.toolsIn = toolsIn facts . number,
+          CoreHole.removals = removalsIn facts,
+          CoreHole.solids =
+            [ solid
+              | Just (Located _ s) <- [Toolpath.stock (Toolpath.setup (path subject))],
+                Just solid <- [stockSolid s]
+            ],
+          CoreHole.allowed = allowed facts,
+          CoreHole.allowedHeight = allowedHeight facts
+        }
 
 -- | Largest radius, and radius within which stock is surely removed, of a cutter in a motion. They
 -- differ only for conical cutters and blades.

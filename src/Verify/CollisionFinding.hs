@@ -2,6 +2,7 @@
 module Verify.CollisionFinding
   ( Collision (..),
     ToolPart (..),
+    CoreTool (..),
     Contact (..),
     SolidContact (..),
     ContactPlace (..),
@@ -12,7 +13,7 @@ module Verify.CollisionFinding
 where
 
 import Base.Decimal qualified as Decimal
-import Base.Quantity (LengthUnit, Mm (..), minus, plus)
+import Base.Quantity (LengthUnit, Mm (..), minus, plus, times)
 import Base.Region (Region)
 import Data.Text (Text)
 import Geometry.Vec (Point)
@@ -54,6 +55,13 @@ data Contact
   | -- | stock: a point at which it still reaches above the lower end of the part, and the reason if
     -- the statement moves the tool too low
     StockLeft Point (Maybe LowTravel)
+  | -- | stock where a tool needs a hole, or a stud: the radius that has to be free, and a point at
+    -- which stock is left above the tip
+    CoreLeft CoreTool Mm Point
+  deriving stock (Eq, Show)
+
+-- | Tool that needs a hole, or a stud, that is there before.
+data CoreTool = TapInHole | ReamerInHole | ThreadMillAtWall
   deriving stock (Eq, Show)
 
 -- | Contact with a solid that the program avoids.
@@ -110,10 +118,34 @@ toReport unit c = case contact c of
               <> tipSentence unit c,
           hints = [longerTool (toolPart c)]
         }
+  CoreLeft tool needed p ->
+    (wrong c "E0746" (coreToolWord tool <> " in frame " <> frameNumber c <> " runs into stock"))
+      { message =
+          [ "At " <> at p <> " there is stock above the height " <> inUnit (tipHeight c)
+              <> ", to which the tip comes down."
+          ],
+        hints = coreHints tool (inUnit (times 2 needed))
+      }
   where
     inUnit = Decimal.inUnit unit
     at = Vec.toText unit 3
     lowerEnd = inUnit (plus (tipHeight c) (partAbove c))
+
+-- | Words for a tool that needs a hole.
+coreToolWord :: CoreTool -> Text
+coreToolWord tool = case tool of
+  TapInHole -> "the tap"
+  ReamerInHole -> "the reamer"
+  ThreadMillAtWall -> "the thread mill"
+
+-- | Advice for a tool that needs a hole of a diameter.
+coreHints :: CoreTool -> Text -> [Text]
+coreHints tool diameter = case tool of
+  ThreadMillAtWall -> ["Make the hole or the stud before, at least as deep as the thread."]
+  _ ->
+    [ "Make a hole of at least " <> diameter
+        <> " before. A drill has its full diameter only above its point, so drill deeper."
+    ]
 
 -- | Cause of a rapid move into stock, if the clearance height is below the top of the stock.
 lowSentence :: (Mm -> Text) -> LowTravel -> [Text]

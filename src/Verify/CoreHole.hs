@@ -6,12 +6,13 @@
 -- statement nothing is known of the holes that the blank has.
 module Verify.CoreHole
   ( MotionsInStock (..),
+    CoreHoleFault (..),
     coreHoleFaults,
   )
 where
 
 import Base.Quantity (Mm (..), minus, plus, times)
-import Base.Region (Located (..), Region)
+import Base.Region (Located (..))
 import Data.List.NonEmpty qualified as NonEmpty
 import Data.Maybe (listToMaybe, maybeToList)
 import Geometry.Segment qualified as Segment
@@ -22,8 +23,7 @@ import Part.Part qualified as Part
 import Part.WallDepth qualified as WallDepth
 import Toolpath.Toolpath (Toolpath)
 import Toolpath.Toolpath qualified as Toolpath
-import Verify.CoreHoleFinding (CoreHoleFault (CoreHoleFault), CoreTool (..))
-import Verify.CoreHoleFinding qualified as Fault
+import Verify.CollisionFinding (CoreTool (..))
 import Verify.Motion (CutterMotion (..))
 import Verify.Motion qualified as Motion
 import Verify.RemainingStock (Probe (Probe), Removals, StockSolid)
@@ -37,14 +37,24 @@ data MotionsInStock = MotionsInStock
     isRapid :: CutterMotion -> Bool,
     -- | tools that may be in the spindle in a motion, each with its index
     toolsIn :: CutterMotion -> [(Int, Cutter)],
-    -- | text in the program that asks for a motion, if it is known
-    askedIn :: CutterMotion -> Maybe Region,
     removals :: Removals,
     -- | stock of the program
     solids :: [StockSolid],
     -- | depth of a contact in the plane, and along z, that does not count
     allowed :: Mm,
     allowedHeight :: Mm
+  }
+
+-- | Motion of a tool that needs a hole, and finds stock.
+data CoreHoleFault = CoreHoleFault
+  { coreMotion :: CutterMotion,
+    coreTool :: CoreTool,
+    -- | radius that has to be free
+    needed :: Mm,
+    -- | lowest height of the tip
+    coreLowest :: Mm,
+    -- | point at which stock is left above this height
+    stockAt :: Point
   }
 
 -- | The first motion in which one of these tools runs into stock, for each tool.
@@ -64,9 +74,9 @@ needsOf path =
   [ Need t w deep (map centreOf (NonEmpty.toList (Part.holes d)))
     | (t, Toolpath.Holing (Located _ d) _) <- zip (Toolpath.toolIndices blocks) blocks,
       (w, deep) <- case Part.form d of
-        Part.Tapped stroke -> [(Tapping, WallDepth.threadDepth (Part.tapPitch stroke))]
-        Part.Threaded h -> [(ThreadMilling, WallDepth.threadDepth (Part.pitch h))]
-        Part.Reamed -> [(Reaming, times (1 - WallDepth.reamedShare) (Part.drillRadius d))]
+        Part.Tapped stroke -> [(TapInHole, WallDepth.threadDepth (Part.tapPitch stroke))]
+        Part.Threaded h -> [(ThreadMillAtWall, WallDepth.threadDepth (Part.pitch h))]
+        Part.Reamed -> [(ReamerInHole, times (1 - WallDepth.reamedShare) (Part.drillRadius d))]
         Part.Plunged -> []
         Part.Bored _ -> []
   ]
@@ -82,12 +92,11 @@ faultIn scene (Need tool w deep centres) k m = case toolsIn scene m of
     | t == tool && not (isRapid scene m) && isOfWork c ->
       listToMaybe
         [ CoreHoleFault
-            { Fault.frameOfFault = number m,
-              Fault.asked = askedIn scene m,
-              Fault.work = w,
-              Fault.needed = radius,
-              Fault.tipHeight = low,
-              Fault.stockAt = p
+            { coreMotion = m,
+              coreTool = w,
+              needed = radius,
+              coreLowest = low,
+              stockAt = p
             }
           | let radius = radiusOf c,
             solid <- solids scene,
@@ -104,11 +113,11 @@ faultIn scene (Need tool w deep centres) k m = case toolsIn scene m of
     level = plus low (allowedHeight scene)
     isSink = Motion.isVertical m && toHeight m < fromHeight m
     isOfWork c = case (w, Part.kind c) of
-      (ThreadMilling, ThreadCutter _) -> True
-      (ThreadMilling, _) -> False
+      (ThreadMillAtWall, ThreadCutter _) -> True
+      (ThreadMillAtWall, _) -> False
       _ -> isSink && any isHere centres
     isHere p = Vec.distance p (Segment.end (segment m)) <= allowed scene
     -- A thread mill goes down beside the wall, without cutting.
     radiusOf c
-      | w == ThreadMilling && isSink = cutterRadius c
+      | w == ThreadMillAtWall && isSink = cutterRadius c
       | otherwise = minus (cutterRadius c) deep

@@ -117,9 +117,9 @@ isJoined milling level slopes = case slopes of
     isEqual a b = let Mm d = minus a b in abs d <= tiny
     -- The way down may begin over a tab.
     isBegin z =
-      isEqual z (highest milling level)
-        || any (\(Located _ t) -> z <= Part.tabTop t && z >= lowest) (Part.tabs milling)
-    lowest = highest milling level
+      isEqual z top
+        || any (\(Located _ t) -> z <= Part.tabTop t && z >= top) (Part.tabs milling)
+    top = highest milling level
 
 -- | Test that a part of a way down is not steeper than the tangent @steepest@.
 isWithin :: Double -> Slope -> Bool

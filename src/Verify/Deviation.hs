@@ -248,7 +248,7 @@ keepOutOf set job along = \m ->
               required = \e p ->
                 plus (reach job) (Gouge.allowanceAt (side job) (roundingOf m) (edges job) e p)
             }
-        else (RimWork.keepOut (MotionSet.rimWorksOf set m) tool) {searchRadius}
+        else (RimWork.keepOut (MotionSet.rimWorksOf set m) (side job) tool) {searchRadius}
   where
     -- The bounding paths of an arc lie beside its real path by the difference of its radii.
     roundingOf m = plus pulse (Mm (FastDistance.uneven (Motion.segment m)))

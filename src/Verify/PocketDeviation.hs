@@ -113,7 +113,8 @@ examineWalls set PassMotions {isKnown, clears, isIn} pocket isFirst pass = (cont
       | isClearing m = Gouge.constantKeepOut (reach pass)
       | MotionSet.isPlanned set && isInPass m =
         Gouge.constantKeepOut (minus (rimDistance pocket) Pocket.spareRoom)
-      | otherwise = RimWork.keepOut (MotionSet.rimWorksOf set m) (MotionSet.toolOf set m)
+      | otherwise =
+        RimWork.keepOut (MotionSet.rimWorksOf set m) (Just (side pocket)) (MotionSet.toolOf set m)
     gouges = mapMaybe (\m -> Gouge.gougeOf (keepOut m) (walls pocket) m) examined
     deepest = deepestGouge keepOut pocket examined
     -- Excess

@@ -40,8 +40,6 @@ import Report.Report qualified as Report
 import Verify.CollisionFinding (Collision (frameOfCollision))
 import Verify.CollisionFinding qualified as CollisionFinding
 import Verify.ControlFault (ControlFinding)
-import Verify.CoreHoleFinding (CoreHoleFault)
-import Verify.CoreHoleFinding qualified as CoreHoleFinding
 
 -- | Witness of a deviation from the part: how large the deviation is, and where.
 data Witness = Witness
@@ -133,8 +131,6 @@ data Finding
     OffPlane Int
   | -- | A tool touches what it must not.
     Collides Collision
-  | -- | A tap, a reamer or a thread mill runs into stock.
-    NeedsHole CoreHoleFault
   | -- | The first frame that turns a rotary axis, which the proof cannot judge: the frame, the
     -- axis. All findings of such a tape are of this kind.
     TurnsAxis Int RotaryAxis
@@ -178,7 +174,6 @@ tapeOrder finding = case finding of
   NotInOrder _ -> (0, 3)
   AgainstSense n _ _ -> (n, 3)
   Collides c -> (frameOfCollision c, 4)
-  NeedsHole f -> (CoreHoleFinding.frameOfFault f, 4)
   OffPlane n -> (n, 4)
   TurnsAxis n _ -> (n, 4)
   HoleMissing _ _ -> (0, 4)
@@ -205,7 +200,6 @@ isOffContour finding = case finding of
   NotInOrder {} -> False
   AgainstSense {} -> False
   Collides {} -> False
-  NeedsHole {} -> False
   OffPlane {} -> False
   TurnsAxis {} -> False
   HoleMissing {} -> False
@@ -339,7 +333,6 @@ toReport unit machine finding = case finding of
           ["The chips are then cut from the other end, and the wall gets another size and surface."]
       }
   Collides c -> CollisionFinding.toReport unit c
-  NeedsHole f -> CoreHoleFinding.toReport unit f
   OffPlane n -> wrong "E0705" InFile (frameWord n <> " moves z, but the program does not")
   TurnsAxis n axis ->
     (wrong "E0718" InFile (frameWord n <> " turns the rotary axis " <> rotaryWord axis))

@@ -319,8 +319,8 @@ spec = do
               n = Curve.domain c
            in close 1e-6 (Curve.pointFrom Before (Curve.reversed c) (n - u)) (Curve.at c u)
     it
-      "the speed after a break is that of the stretch after it (catches a stretch that counts beyond \
-      \its end)"
+      "the speed after a break is that of the stretch after it (catches a stretch that counts \
+      \beyond its end)"
       $ property $
         forAll (Generate.layered 3 Generate.anyCurve) $ \c ->
           conjoin

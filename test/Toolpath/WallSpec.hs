@@ -15,6 +15,7 @@ import Test.Hspec
 import Test.QuickCheck
 import Toolpath.Error (Error (..))
 import Toolpath.FromPart qualified as Toolpath
+import Toolpath.HoleReport qualified as HoleReport
 
 spec :: Spec
 spec =
@@ -99,8 +100,7 @@ unmarked :: Error -> Error
 unmarked e = case e of
   CutsPart at move element deep how p begins ->
     CutsPart at move (original element) deep how p begins
-  HoleCuts at centre also element deep drill size ->
-    HoleCuts at centre also (original element) deep drill size
+  HoleCuts cut -> HoleCuts cut {HoleReport.element = original (HoleReport.element cut)}
   MillsAnother at along element deep p -> MillsAnother at (inText along) (original element) deep p
   _ -> e
   where

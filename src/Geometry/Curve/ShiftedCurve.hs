@@ -217,7 +217,8 @@ movedAt n layer lower s
   | ShiftDistance.vanishes (distance layer) s = expansionAt n lower s
   | otherwise =
     let near = expansionAt (n + 1) lower s
-     in TaylorExpansion.offset (turnAt n (turns layer) lower s) (distanceAt n layer lower near s) near
+        turned = turnAt n (turns layer) lower s
+     in TaylorExpansion.offset turned (distanceAt n layer lower near s) near
 
 -- | Expansion of the curve below a shift about a position of the shifted curve, up to the power
 -- @n + 1@, and the shift's distance there in mm, positive to the left, as a power series up to the
