@@ -20,11 +20,10 @@ import Machine.Machine (Machine (name), MachineName (MachineName))
 import Machines qualified
 import Project.LoadedProgram qualified as LoadedProgram
 import Project.Target qualified as Target
+import PythonJudge qualified
 import Report.Report qualified as Report
-import System.Directory (findExecutable, listDirectory)
-import System.Exit (ExitCode (ExitSuccess))
+import System.Directory (listDirectory)
 import System.FilePath (takeExtension, (</>))
-import System.Process (readProcessWithExitCode)
 import Test.Hspec
 import Test.QuickCheck
 import Toolpath.Toolpath (Toolpath)
@@ -47,21 +46,13 @@ spec = do
             tabulate "first codes" (take 1 (codesOf machine proof)) $
               not (Proof.isProven proof)
   parts <- runIO (fromMaybe 10 <$> askedCount "PARTC_HEIGHTS")
-  it "a judge with heights on a grid finds the same in random files (pending without numpy)" $ do
-    (found, _, _) <- readProcessWithExitCode python ["-c", "import numpy"] ""
-    if found /= ExitSuccess
-      then pendingWith "the package python3-numpy is not installed"
-      else do
-        program <- findExecutable "partc" >>= maybe (fail "partc is not on the path") pure
-        (code, out, _) <-
-          readProcessWithExitCode
-            python
-            ["-B", "test/heights/collisions.py", program, "--parts", show parts, "--seed", "1"]
-            ""
-        if code == ExitSuccess then pure () else expectationFailure out
+  it "a judge with heights on a grid finds the same in random files (pending without numpy)" $
+    PythonJudge.agrees
+      "test/heights/collisions.py"
+      [("numpy", "python3-numpy")]
+      ["--parts", show parts, "--seed", "1"]
   where
     isProgram file = takeExtension file == ".part"
-    python = "/usr/bin/python3"
 
 -- | The codes of the findings of a proof.
 codesOf :: Machine -> Proof -> [String]

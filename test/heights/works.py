@@ -451,11 +451,16 @@ class Part:
         self.body.append(f"drill {where} depth {depth:g}{tail}")
         self._hole("drill", places, radius, depth, slope)
 
-    def _spot(self, at):
-        rng = self.rng
-        radius, angle = rng.choice([2, 3, 4]), rng.choice([90, 118, 120])
+    def _pointed_drill(self, radii, angles):
+        """A pointed drill: its radius, its angle in degrees, and the rise of its point."""
+        radius, angle = self.rng.choice(radii), self.rng.choice(angles)
         slope = 1 / math.tan(math.radians(angle / 2))
         self._tool(f"drill(diameter {2 * radius:g}, angle {angle} deg)", radius, slope)
+        return radius, angle, slope
+
+    def _spot(self, at):
+        rng = self.rng
+        radius, _, slope = self._pointed_drill([2, 3, 4], [90, 118, 120])
         places, where = self._holes(at, radius)
         if rng.random() < 0.5:
             depth = rounded(rng, 0.5, 3, 0.25)
@@ -469,9 +474,7 @@ class Part:
 
     def _countersink(self, at):
         rng = self.rng
-        radius, angle = rng.choice([3, 4, 5]), rng.choice([82, 90, 120])
-        slope = 1 / math.tan(math.radians(angle / 2))
-        self._tool(f"drill(diameter {2 * radius:g}, angle {angle} deg)", radius, slope)
+        radius, angle, slope = self._pointed_drill([3, 4, 5], [82, 90, 120])
         places, where = self._holes(at, radius)
         wide = rounded(rng, 1, 2 * radius, 0.25)
         tail = self._words("shortest", "plunge 90", *self._dwell())
