@@ -235,6 +235,7 @@ longFunctions =
       <> because
         "a table of words"
         [ "Checked.NameMeaning.meanings",
+        "Drawing.CodePageTable.rows",
           "Query.Manual.settings",
           "Query.Manual.statements",
           "Surface.WordMeaning.meanings",
@@ -295,6 +296,7 @@ sharedNames =
     [ ( "Error",
         [ "Checked.Error",
           "Cli.Error",
+          "Drawing.Error",
           "Frame.Error",
           "Machine.Error",
           "Part.Error",
@@ -313,6 +315,11 @@ sharedNames =
         ("Statement", ["Checked.Syntax", "Machine.Syntax", "Surface.Syntax"]),
         ("Token", ["Machine.Lexer", "Surface.Token"]),
         ("Token_", ["Machine.Lexer", "Surface.Token"])
+      ]
+    <> inGroup
+      "drawings of other programs, which have no stage in common with the other type"
+      [ ("Piece", ["Drawing.Drawing", "Sheet.Sheet"]),
+        ("Shape", ["Draw.Scene", "Drawing.Drawing"])
       ]
     <> inGroup
       "one concept at stages that follow one another"

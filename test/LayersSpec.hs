@@ -53,6 +53,7 @@ table =
     Layer Folder "Surface" (Only ["Base", "Report"]),
     Layer Folder "Checked" (Only ["Surface"]),
     Layer Folder "Geometry" (Only ["Base"]),
+    Layer Folder "Drawing" (Only ["Base", "Report", "Geometry"]),
     Layer Folder "Offset" (Only ["Geometry"]),
     Layer Folder "Part" (Only ["Checked", "Geometry", "Offset"]),
     Layer Folder "Sheet" (Only ["Base", "Report", "Surface", "Part", "Geometry"]),
@@ -133,6 +134,7 @@ stageData =
   Map.fromList
     [ ("Report.Fix", []),
       ("Report.Report", ["Report.Fix"]),
+      ("Drawing.Drawing", []),
       ("Surface.Syntax", ["Surface.Token"]),
       ("Checked.Syntax", ["Checked.Dimension", "Checked.Type"]),
       ("Part.Part", ["Part.Curve", "Part.CutFeed", "Part.Cutter", "Part.Link"]),
@@ -294,6 +296,7 @@ spec = do
                 "Surface",
                 "Checked",
                 "Geometry",
+                "Drawing",
                 "Offset",
                 "Part",
                 "Toolpath",

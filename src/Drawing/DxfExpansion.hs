@@ -1,0 +1,125 @@
+-- | The entities of a DXF file with all insertions carried out, in mm.
+module Drawing.DxfExpansion
+  ( drawing,
+  )
+where
+
+import Data.Bifunctor (first)
+import Data.List (maximumBy)
+import Data.List.NonEmpty (NonEmpty (..))
+import Data.Map.Strict (Map)
+import Data.Map.Strict qualified as Map
+import Data.Ord (comparing)
+import Data.Set qualified as Set
+import Data.Text (Text)
+import Drawing.AffineMap (AffineMap, after)
+import Drawing.AffineMap qualified as AffineMap
+import Drawing.CodePage (Encoding)
+import Drawing.Drawing (Drawing (Drawing), Entity (..), Remark (..), RemarkKind (..), Shape)
+import Drawing.Drawing qualified as Drawing
+import Drawing.DxfBlock (BlockContent (..), Blocks, DxfItem (..), ItemContent (..))
+import Drawing.DxfBlock qualified as DxfBlock
+import Drawing.DxfInsert (Insert (blockName))
+import Drawing.DxfInsert qualified as DxfInsert
+import Drawing.DxfRecord (Record)
+import Drawing.DxfRecord qualified as DxfRecord
+import Drawing.DxfSection (Sections (..))
+import Drawing.Error (DrawingFault (..), Error (Error))
+import Drawing.ShapeCheck (Judgement (..))
+import Drawing.ShapeCheck qualified as ShapeCheck
+import Drawing.Tolerance qualified as Tolerance
+
+-- | The drawing of a file whose unit has this length in mm. All errors of its entities are
+-- reported, up to a limit.
+drawing :: Encoding -> Double -> Sections -> Either (NonEmpty Error) Drawing
+drawing encoding unit sections = do
+  hidden <- first pure (hiddenLayers encoding (layers sections))
+  raw <- first pure (DxfBlock.rawBlocks encoding (blocks sections))
+  (known, own) <- DxfBlock.contents encoding raw (entities sections)
+  let weights = [(DxfBlock.weight known item, itemLine item) | item <- own]
+      scaled = AffineMap.scaling unit unit
+      context = Context {known, hidden, toDrawing = scaled, layerOfInsert = "0"}
+  if sum (map fst weights) > toInteger Tolerance.mostParts
+    then Left (pure (Error (snd (maximumBy (comparing fst) weights)) TooManyParts))
+    else assembled (concatMap (partsOf context) own)
+
+-- | A part of the drawing.
+data Part = Drawn Entity | Remarked Remark | Wrong Error
+
+-- | The drawing of its parts. A remark on an entity that is inserted several times is given once.
+assembled :: [Part] -> Either (NonEmpty Error) Drawing
+assembled found = case [e | Wrong e <- found] of
+  e : es -> Left (e :| take (Tolerance.mostErrors - 1) es)
+  [] ->
+    Right
+      Drawing
+        { Drawing.entities = [e | Drawn e <- found],
+          Drawing.remarks = Set.toAscList (Set.fromList [r | Remarked r <- found])
+        }
+
+-- Layers --------------------------------------------------------------------------------------
+
+-- | The state of a layer that is not shown. A layer that is frozen also hides the insertions on it.
+data Hiding = Frozen | Off
+  deriving stock (Eq)
+
+-- | The layers that are not shown, by the keys of their names: frozen ones have the flag 1 in group
+-- 70, and those that are off have a negative colour.
+hiddenLayers :: Encoding -> [Record] -> Either Error (Map Text Hiding)
+hiddenLayers encoding records = Map.fromList . concat <$> traverse hiding records
+  where
+    hiding record = do
+      name <- DxfRecord.name encoding 2 record
+      flags <- DxfRecord.wholeOr 0 70 record
+      colour <- DxfRecord.wholeOr 7 62 record
+      Right
+        [ (DxfBlock.key known, if odd flags then Frozen else Off)
+          | odd flags || colour < 0,
+            Just known <- [name]
+        ]
+
+-- Insertions ----------------------------------------------------------------------------------
+
+-- | The surroundings of an item.
+data Context = Context
+  { known :: Blocks,
+    hidden :: Map Text Hiding,
+    -- | the map from the coordinates of the item to those of the drawing
+    toDrawing :: AffineMap,
+    -- | the layer of the insertion around the item; entities on layer 0 take it
+    layerOfInsert :: Text
+  }
+
+-- | The parts of the drawing that an item becomes.
+partsOf :: Context -> DxfItem -> [Part]
+partsOf context DxfItem {itemLine = line, itemWord, itemLayer, content} = case content of
+  Noted kind -> [remarked kind]
+  Shaped shape -> case hiding of
+    Just _ -> [remarked (OnHiddenLayer itemWord layer)]
+    Nothing -> [partOf line itemWord layer (AffineMap.shape (toDrawing context) shape)]
+  Inserted insert
+    | hiding == Just Frozen -> [remarked (OnHiddenLayer itemWord layer)]
+    | otherwise -> case Map.lookup (DxfBlock.key (blockName insert)) (known context) of
+      Nothing -> [Wrong (Error line (BlockUnknown (blockName insert)))]
+      Just block
+        | isExternal block -> [remarked (Unusable itemWord "its block is in another file")]
+        | otherwise ->
+          maybe [remarked (NotInPlane itemWord)] (concatMap (inserted block)) (maps block)
+    where
+      maps block = DxfInsert.maps (base block) insert
+  where
+    layer = if itemLayer == "0" then layerOfInsert context else itemLayer
+    hiding = Map.lookup (DxfBlock.key layer) (hidden context)
+    remarked kind = Remarked Remark {remarkLine = line, remarkKind = kind}
+    inserted block m =
+      concatMap
+        (partsOf context {toDrawing = toDrawing context `after` m, layerOfInsert = layer})
+        (items block)
+
+-- | The part of a shape in mm.
+partOf :: Int -> Text -> Text -> Shape -> Part
+partOf line word layer shape = case ShapeCheck.judge shape of
+  Usable usable ->
+    Drawn Entity {line, word, layer, identifiers = [], classes = [], shape = usable}
+  Degenerate reason -> Remarked Remark {remarkLine = line, remarkKind = Unusable word reason}
+  TooFar -> Wrong (Error line (OutOfReach word))
