@@ -52,7 +52,7 @@
   '("polar" "intersection" "centre_of" "midpoint" "foot_of" "tangency" "point_on"
     "line" "horizontal" "vertical" "parallel" "perpendicular" "circle" "concentric"
     "distance" "direction_of" "radius_of" "length_of" "x_of" "y_of"
-    "spline" "closed_spline" "polyline" "parabola" "arcs" "closed_arcs" "fit" "sections"
+    "spline" "closed_spline" "bezier" "bspline" "polyline" "parabola" "arcs" "closed_arcs" "fit" "sections"
     "rows_of" "points_of" "point_at_x" "point_along" "length_along" "start_of" "end_of"
     "tangent_of" "normal_of" "curvature_of"
     "region" "union" "difference" "offset_of" "outlines_of" "holes_of" "area_of" "centroid_of"

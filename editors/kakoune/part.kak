@@ -86,7 +86,7 @@ provide-module part %§
     add-highlighter shared/part/code/ regex \bturn\([^\n]*,\h*(tip)\b 1:keyword
 
     # Functions and constants
-    add-highlighter shared/part/code/ regex \b(region|union|difference|offset_of|outlines_of|holes_of|area_of|centroid_of|rectangle|bar|rounded|slot|polygon|ellipse|gear|polar|intersection|centre_of|midpoint|foot_of|tangency|point_on|line|horizontal|vertical|parallel|perpendicular|circle|concentric|distance|direction_of|radius_of|length_of|x_of|y_of|spline|closed_spline|polyline|parabola|arcs|closed_arcs|fit|sections|rows_of|points_of|point_at_x|point_along|length_along|start_of|end_of|tangent_of|normal_of|curvature_of|moved|rotated|mirrored|scaled|reversed|row|grid|around|count_of|item_of|lift|sin|cos|tan|asin|acos|atan2|sqrt|abs|min|max|floor)\( 1:builtin
+    add-highlighter shared/part/code/ regex \b(region|union|difference|offset_of|outlines_of|holes_of|area_of|centroid_of|rectangle|bar|rounded|slot|polygon|ellipse|gear|polar|intersection|centre_of|midpoint|foot_of|tangency|point_on|line|horizontal|vertical|parallel|perpendicular|circle|concentric|distance|direction_of|radius_of|length_of|x_of|y_of|spline|closed_spline|bezier|bspline|polyline|parabola|arcs|closed_arcs|fit|sections|rows_of|points_of|point_at_x|point_along|length_along|start_of|end_of|tangent_of|normal_of|curvature_of|moved|rotated|mirrored|scaled|reversed|row|grid|around|count_of|item_of|lift|sin|cos|tan|asin|acos|atan2|sqrt|abs|min|max|floor)\( 1:builtin
     add-highlighter shared/part/code/ regex \b(pi|true|false)\b 1:value
 
     # Numbers and their units

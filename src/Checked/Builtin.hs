@@ -108,6 +108,8 @@ name builtin = case builtin of
   MakeBar -> "bar"
   XOf -> "x_of"
   YOf -> "y_of"
+  MakeBezier -> "bezier"
+  MakeBSpline -> "bspline"
   MakeSpline -> "spline"
   ClosedSpline -> "closed_spline"
   Polyline -> "polyline"
@@ -154,9 +156,11 @@ isConstant :: Builtin -> Bool
 isConstant builtin = builtin `elem` [Pi, Truth, Falsehood]
 
 -- | May a program define the name of a function for something else? Then it means this below.
--- Functions of regions and shapes have such names, because older programs use some of them.
+-- Functions of regions and shapes, and those of Bézier curves, have such names, because older
+-- programs use some of them.
 mayBeHidden :: Text -> Bool
-mayBeHidden word = maybe False (`elem` [RegionOf .. MakeBar]) (lookup word)
+mayBeHidden word =
+  maybe False (`elem` [RegionOf .. MakeBar] <> [MakeBezier, MakeBSpline]) (lookup word)
 
 -- | The forms of a function, with the given unknowns in their types. If several forms still fit a
 -- call when its statement has been checked to the end, the first of them in this list is chosen.
@@ -258,6 +262,16 @@ forms Fresh {dimension = d, anything} builtin = case builtin of
     [ Form (given "centre" Type.aPoint : map (`given` Type.len) ["first", "second"] <> more) Contour
       | more <- [[], [angle]]
     ]
+      <> [ Form
+             [ given "centre" Type.aPoint,
+               given "first" Type.len,
+               given "second" Type.len,
+               angle,
+               given "from" Type.angle,
+               given "to" Type.angle
+             ]
+             (Curve (Fields []))
+         ]
   MakeBar -> [Form [given "diameter" Type.len, given "length" Type.len] Contour]
   MakeGear ->
     [ Form (given "module" Type.len : given "teeth" Type.number : more) Contour
@@ -265,6 +279,12 @@ forms Fresh {dimension = d, anything} builtin = case builtin of
     ]
   XOf -> [Form [given "point" (Spatial d)] Type.len]
   YOf -> [Form [given "point" (Spatial d)] Type.len]
+  MakeBezier -> [f | more <- [[], [weights]], f <- curveBy [] more]
+  MakeBSpline ->
+    [ f
+      | more <- [[], [weights]],
+        f <- curveBy [given "degree" Type.number] (given "knots" (ListOf Type.number) : more)
+    ]
   MakeSpline ->
     curveThrough []
       <> curveThrough [given "first_direction" Type.angle, given "last_direction" Type.angle]
@@ -347,6 +367,11 @@ forms Fresh {dimension = d, anything} builtin = case builtin of
       [ Form (table' : more) (Curve anything),
         Form (given "points" points : more) (Curve (Fields []))
       ]
+    -- The forms of a function that makes a curve by control points, which the curve does not pass.
+    -- @before@ and @after@ are the parameters before and after them.
+    curveBy before after =
+      [Form (before <> (by : after)) (Curve (Fields [])) | by <- [given "points" points, table']]
+    weights = given "weights" (ListOf Type.number)
     points = ListOf Type.aPoint
     -- The types of values that have an inside.
     outlined = [Contour, PlaneRegion, Circle]

@@ -427,6 +427,8 @@ data Builtin
   | MakeBar
   | XOf
   | YOf
+  | MakeBezier
+  | MakeBSpline
   | MakeSpline
   | ClosedSpline
   | Polyline

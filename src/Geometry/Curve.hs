@@ -1,7 +1,7 @@
 -- | Planar curves given by point tables, span shapes or segments, and the shifts of such curves.
 --
--- A span is a part of a curve on which one formula gives the points: an arc, or a pair of cubic
--- polynomials of the parameter, one for x and one for y. A curve maps a parameter, from 0 to the
+-- A span is a part of a curve on which one formula gives the points: an arc, a pair of cubic
+-- polynomials of the parameter, one for x and one for y, or a Bézier curve of another kind. A curve maps a parameter, from 0 to the
 -- count of its spans, to a point. The rows of a curve are the points of the table from which it was
 -- made; each row has a parameter.
 --
@@ -34,6 +34,15 @@ module Geometry.Curve
     fromSegments,
     fromSegmentsAt,
     Segment,
+    Weights,
+    WeightFault (..),
+    weightsFor,
+    bezier,
+    KnotVector,
+    KnotFault (..),
+    knotVector,
+    bspline,
+    ellipse,
 
     -- * Shifts
     Column,
@@ -84,7 +93,7 @@ module Geometry.Curve
   )
 where
 
-import Base.Quantity (Mm (..), minus, times)
+import Base.Quantity (Mm (..), Rad, minus, times)
 import Data.List.NonEmpty (NonEmpty)
 import Data.List.NonEmpty qualified as NonEmpty
 import Data.Vector (Vector)
@@ -99,10 +108,14 @@ import Geometry.Curve.BasisCurve
     Knot,
   )
 import Geometry.Curve.BasisCurve qualified as BasisCurve
+import Geometry.Curve.Bezier (WeightFault (..), Weights, weightsFor)
+import Geometry.Curve.Bezier qualified as Bezier
 import Geometry.Curve.Column (Column)
 import Geometry.Curve.Column qualified as Column
 import Geometry.Curve.CubicSpans qualified as CubicSpans
 import Geometry.Curve.Cusp (Cusp, firstCusp)
+import Geometry.Curve.KnotVector (KnotFault (..), KnotVector, knotVector)
+import Geometry.Curve.KnotVector qualified as KnotVector
 import Geometry.Curve.PointSearch (atX, corners, nearest)
 import Geometry.Curve.PointSearch qualified as PointSearch
 import Geometry.Curve.ShiftDistance (Distance (..), Growth (..), Joggle (..), ramp)
@@ -175,6 +188,28 @@ fromSegmentsAt segments points = Unshifted <$> BasisCurve.fromSegmentsAt segment
         | otherwise -> next (u + 1, rest, ps)
       ([], _ : _) -> Just (u, (u, [], []))
       (_, []) -> Nothing
+
+-- | Bézier curve by its control points. The fault is 'NoLength' if all of them coincide.
+bezier :: Vector Point -> Maybe Weights -> Either CurveFault Curve
+bezier points weights
+  | Vector.length points < 2 = Left (TooFew 2)
+  | otherwise = Unshifted <$> BasisCurve.fromBeziers (Bezier.fromPoints points weights)
+
+-- | B-spline by its knots and control points, of which there are as many as the knots need. Its
+-- spans are Bézier curves; those without length are left out.
+bspline :: KnotVector -> Vector Point -> Maybe Weights -> Either CurveFault Curve
+bspline knots points weights =
+  Unshifted
+    <$> BasisCurve.fromBeziers
+      (Bezier.fromCoordinates (KnotVector.bezierSpans knots) points weights)
+
+-- | Part of an ellipse about a centre with two semi-axes; the first one has an angle to the x axis.
+-- It goes from the first parameter angle to the last, counter-clockwise if the last is larger. The
+-- fault is 'NoLength' if both are equal.
+ellipse :: Point -> Mm -> Mm -> Rad -> Rad -> Rad -> Either CurveFault Curve
+ellipse centre a b turn from to =
+  Unshifted
+    <$> BasisCurve.fromBeziers (NonEmpty.toList (Bezier.ellipse centre a b turn from to))
 
 -- | Curve below all shifts.
 unshifted :: Curve -> Curve

@@ -32,6 +32,9 @@ module Geometry.Tolerance
     parameter,
     sameParameter,
     stationary,
+    knotShare,
+    largestDegree,
+    weightRatio,
 
     -- * Arc fitting
     straight,
@@ -135,6 +138,23 @@ sameParameter = 1e-11
 -- counts as 0.
 stationary :: Mm
 stationary = Mm 1e-9
+
+-- | The largest difference of two knots of a B-spline that count as one, as a share of the interval
+-- of the parameter on which the curve is defined. Programs for design write knots with 9 digits or
+-- more; a curve changes by about as small a share of its size.
+knotShare :: Double
+knotShare = 1e-9
+
+-- | The largest degree of a Bézier curve or a B-spline. Programs for design use degrees up to about
+-- 10; the time of an evaluation grows with the square of the degree.
+largestDegree :: Int
+largestDegree = 20
+
+-- | The largest quotient of two weights of a rational curve. With a larger one the curve passes
+-- nearly all of its length within so small a part of its parameter that its arc length would not
+-- be exact. The weights of drawings differ by less than a factor of 10.
+weightRatio :: Double
+weightRatio = 1e4
 
 -- | The largest sweep of an arc that counts as a line. The centre of such an arc is so distant that
 -- the rounding error of distances from it (@c·5·10⁷·10⁻¹⁶@ for a chord c) is larger than the arc's

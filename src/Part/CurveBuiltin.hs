@@ -1,7 +1,7 @@
 -- | Functions of tables and curves: splines, polylines, parabolas, biarcs and fitted sections;
--- points, directions, lengths and intersections of curves.
+-- Bézier curves, B-splines and parts of ellipses; points, directions, lengths and intersections of curves.
 --
--- 'apply' tries four functions in turn. Each of them computes one group of the built-in functions,
+-- 'apply' tries five functions in turn. Each of them computes one group of the built-in functions,
 -- and yields 'Nothing' for all other functions and arguments. The polyarc of a curve is a chain of
 -- lines and arcs within 'Tolerance.curve' of it. A section is one line, parabola or arc between two
 -- rows of a table. A biarc consists of two arcs with a common tangent at their joint.
@@ -40,13 +40,15 @@ import Part.ConstructionError (ConstructionFault (..), NoAnswer (..))
 import Part.ContourError (ContourFault (NoLength))
 import Part.Curve (Fitting (..), PartCurve (..), PartTable (..))
 import Part.Curve qualified as Curve
-import Part.CurveError (CurveMistake (..), ListFault (..), Listing (..))
+import Part.CurveError (ControlFault (..), CurveMistake (..), ListFault (..), Listing (..))
 import Part.Error (ValueFact (..))
 import Part.Evaluation (Eval)
 import Part.Evaluation qualified as Evaluation
 import Part.Parameter (Range (FromTo))
 import Part.Parameter qualified as Parameter
+import Part.RegionError (RegionMistake (NoSuchShape))
 import Part.Selection (answerPoints, picked)
+import Part.Shape (ShapeFault (WrongSweep))
 import Part.Tolerance qualified as Tolerance
 import Part.Value
 
@@ -54,7 +56,7 @@ import Part.Value
 -- reports. 'Nothing' if @builtin@ with these arguments is another function.
 apply :: Region -> Builtin -> [Argument] -> Maybe (Eval Value)
 apply region builtin arguments =
-  asum [f region builtin arguments | f <- [newCurve, tableFunction, pointFunction, measure]]
+  asum [f region builtin arguments | f <- [newCurve, controlledCurve, tableFunction, pointFunction, measure]]
 
 -- Tables and new curves
 
@@ -95,6 +97,89 @@ newCurve region builtin arguments = case (builtin, arguments) of
       table <- tableOf region t
       c <- either (faulty region table) pure (make (Curve.points table))
       pure (CurveValue (Curve.curve (Curve.columns table) Nothing c))
+
+-- | Computes a function that makes a curve by control points, or a part of an ellipse. 'Nothing'
+-- for any other function.
+controlledCurve :: Region -> Builtin -> [Argument] -> Maybe (Eval Value)
+controlledCurve region builtin arguments = case (builtin, arguments) of
+  (MakeBezier, t : ws) -> Just (bezier region t ws)
+  (MakeBSpline, Plain (Quantity p) : t : Plain (ListValue us) : ws) ->
+    Just (bspline region p t (Vector.toList us) ws)
+  ( MakeEllipse,
+    [ Plain (Spatial o),
+      Plain (Quantity a),
+      Plain (Quantity b),
+      Plain (Quantity turn),
+      Plain (Quantity from),
+      Plain (Quantity to)
+      ]
+    ) -> Just $ do
+      mapM_ sizeOf [a, b]
+      if abs (to - from) > 2 * pi + Tolerance.equal
+        then noPart (to - from)
+        else
+          either
+            (const (noPart (to - from)))
+            (pure . CurveValue . Curve.plain)
+            (Exact.ellipse (fromOrigin o) (Mm a) (Mm b) (Rad turn) (Rad from) (Rad to))
+  _ -> Nothing
+  where
+    sizeOf x
+      | x <= 0 = Evaluation.mistake (NotPositive region Parameter.ShapeSize x)
+      | otherwise = within region x
+    noPart = Evaluation.mistake . InRegion . NoSuchShape region . WrongSweep . Rad
+
+-- | A Bézier curve by the points of a table or a list, and perhaps a list of weights.
+bezier :: Region -> Argument -> [Argument] -> Eval Value
+bezier region t ws = do
+  table <- tableOf region t
+  let points = Curve.points table
+      most = Tolerance.largestDegree + 1
+  if Vector.length points > most
+    then wrongControls region (ManyControls (Vector.length points) most)
+    else weightsOf region (Vector.length points) ws >>= controlled region table . Exact.bezier points
+
+-- | A B-spline of the degree @p@ with the given knots, by the points of a table or a list, and
+-- perhaps a list of weights.
+bspline :: Region -> Double -> Argument -> [Value] -> [Argument] -> Eval Value
+bspline region p t us ws
+  | abs (p - fromIntegral degree) > Tolerance.equal || degree < 1 || degree > most =
+    Evaluation.mistake (NotWhole region Parameter.CurveDegree (FromTo 1 most) p)
+  | otherwise = do
+    table <- tableOf region t
+    let points = Curve.points table
+    -- The conversion to Bézier curves takes some time for each point.
+    Evaluation.spend region (degree * Vector.length points)
+    case Exact.knotVector degree (Vector.length points) [u | Quantity u <- us] of
+      Left (Exact.FewControlPoints _) -> faulty region table (Exact.TooFew (degree + 1))
+      Left fault -> wrongControls region (WrongKnots fault)
+      Right knots ->
+        weightsOf region (Vector.length points) ws
+          >>= controlled region table . Exact.bspline knots points
+  where
+    degree = if abs p > 1e7 then 0 else round p :: Int
+    most = Tolerance.largestDegree
+
+-- | The weights of @count@ control points: those of the list, if there is one.
+weightsOf :: Region -> Int -> [Argument] -> Eval (Maybe Exact.Weights)
+weightsOf region count arguments = case arguments of
+  [Plain (ListValue ws)] ->
+    either
+      (wrongControls region . WrongWeights count)
+      (pure . Just)
+      (Exact.weightsFor count [w | Quantity w <- Vector.toList ws])
+  _ -> pure Nothing
+
+-- | The curve by the control points of a table. Fails if it has no length, because all the points
+-- coincide.
+controlled :: Region -> PartTable -> Either Exact.CurveFault Exact.Curve -> Eval Value
+controlled region table found = case found of
+  Right c -> pure (CurveValue (Curve.plain c))
+  Left (Exact.NoLength _) -> wrongControls region OnePoint
+  Left fault -> faulty region table fault
+
+wrongControls :: Region -> ControlFault -> Eval a
+wrongControls region = Evaluation.mistake . InCurve . BadControls region
 
 -- | Fails if the tolerance @d@ of a curve, in mm, is not above 0 or is larger than
 -- 'Tolerance.reach'.

@@ -11,6 +11,7 @@ module Part.CurveError
   ( CurveMistake (..),
     Listing (..),
     ListFault (..),
+    ControlFault (..),
     toReport,
   )
 where
@@ -20,6 +21,8 @@ import Base.Quantity (LengthUnit, Mm (..), Rad, degrees, times)
 import Base.Region (Region)
 import Data.Maybe (fromMaybe)
 import Data.Text (Text)
+import Geometry.Curve (KnotFault (..), WeightFault (..))
+import Geometry.Tolerance qualified as Tolerance
 import Geometry.Vec (Point)
 import Geometry.Vec qualified as Vec
 import Part.ErrorText (Candidate (APoint), below, downTo, listed)
@@ -32,6 +35,8 @@ data CurveMistake
   = -- | points that make no curve: their source, the region of the row that shows this, and the
     -- reason
     BadPoints Region Listing (Maybe Region) ListFault
+  | -- | numbers that describe no Bézier curve or B-spline: the reason
+    BadControls Region ControlFault
   | -- | a row or a point that does not exist: the number of it, and the number of rows or points
     NoSuchRow Region Listing Int Int
   | -- | a shift by at least the radius of curvature, at which the curve would turn back: the point,
@@ -93,6 +98,17 @@ data ListFault
     NoSection
   deriving stock (Eq, Show)
 
+-- | The reason why control points, knots and weights describe no curve.
+data ControlFault
+  = -- | more control points than a Bézier curve can have: the number of them, and the largest number
+    ManyControls Int Int
+  | -- | wrong weights for this number of control points
+    WrongWeights Int WeightFault
+  | WrongKnots KnotFault
+  | -- | a curve without length, because all control points that determine it are one point
+    OnePoint
+  deriving stock (Eq, Show)
+
 -- | The report of a fault.
 toReport :: LengthUnit -> CurveMistake -> Report
 toReport unit fault = case fault of
@@ -107,6 +123,8 @@ toReport unit fault = case fault of
           ],
         hints = listHint (nounOf listing) listFault
       }
+  BadControls region controlFault ->
+    let (title, hint) = controlTexts controlFault in (at region "E0376" title) {hints = [hint]}
   NoSuchRow region listing n count ->
     (at region "E0339" (noRowTitle listing n count)) {message = ["They count from 1." | n < 1]}
   Folds region p asked largest ->
@@ -316,3 +334,63 @@ listHint noun fault = case fault of
   NoSection -> [example]
   where
     example = "Two " <> noun <> "s are joined by a line, three by a parabola: [[1, 3], [3, 5, 8]]."
+
+-- | The title and the hint of a report on control points, knots or weights. Knots and weights are
+-- counted from 1.
+controlTexts :: ControlFault -> (Text, Text)
+controlTexts fault = case fault of
+  ManyControls count most ->
+    ( "a Bézier curve has at most " <> Decimal.whole most <> " control points, there are "
+        <> Decimal.whole count,
+      "Write a bspline: its degree does not depend on the number of points."
+    )
+  OnePoint ->
+    ("all control points are one point", "Give the curve control points that differ.")
+  WrongWeights points (WeightCount count) ->
+    ( Decimal.whole points <> " control points need " <> Decimal.whole points
+        <> " weights, there "
+        <> areNumber count,
+      "Write one weight for each control point; without weights all of them are 1."
+    )
+  WrongWeights _ (NoWeight k w) ->
+    ( "weight " <> Decimal.whole k <> " is " <> Decimal.short 6 w,
+      "Weights are above 0: a larger one draws the curve nearer to its control point."
+    )
+  WrongWeights _ (UnevenWeights low high) ->
+    ( "weights " <> Decimal.whole low <> " and " <> Decimal.whole high <> " differ too much",
+      "The largest weight is at most "
+        <> Decimal.short 0 Tolerance.weightRatio
+        <> " times the smallest."
+    )
+  WrongKnots knotFault -> knotTexts knotFault
+
+-- | The title and the hint of a report on the knots of a B-spline.
+knotTexts :: KnotFault -> (Text, Text)
+knotTexts fault = case fault of
+  FewControlPoints count ->
+    ("there are only " <> Decimal.whole count <> " control points", "Give the curve more of them.")
+  KnotCount count needed ->
+    ( "this B-spline needs " <> Decimal.whole needed <> " knots, there " <> areNumber count,
+      "There is one knot for each control point, and one more than the degree."
+    )
+  FallingKnot k ->
+    ( "knot " <> Decimal.whole k <> " is below the one before it",
+      "Write the knots in ascending order; equal ones may follow one another."
+    )
+  RepeatedKnot k u count most ->
+    ( "the knot " <> Decimal.short 9 u <> " occurs " <> Decimal.whole count
+        <> " times, first as knot "
+        <> Decimal.whole k,
+      "Here it may occur " <> Decimal.whole most
+        <> (if most == 1 then " time" else " times")
+        <> ": at an end as often as the degree and once more, within the curve as often as the \
+           \degree."
+    )
+  NoInterval low high ->
+    ( "knots " <> Decimal.whole low <> " and " <> Decimal.whole high <> " are equal",
+      "The curve runs from the one to the other; the second has to be larger."
+    )
+
+-- | A number of things after the word /there/: /is 1/, /are 5/.
+areNumber :: Int -> Text
+areNumber n = if n == 1 then "is 1" else "are " <> Decimal.whole n

@@ -367,6 +367,7 @@ notWholeReport region number range arguments x =
       Parameter.ItemNumber -> argument 1
       Parameter.TableRowNumber -> Nothing
       Parameter.ListPointNumber -> Nothing
+      Parameter.CurveDegree -> argument 0
       Parameter.CornerCount -> argument 1
       Parameter.ToothCount -> argument 1
       Parameter.TabCount -> Just region

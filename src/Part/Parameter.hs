@@ -166,6 +166,8 @@ data WholeNumber
     TableRowNumber
   | -- | the number of a point, from 1, in a list of points that takes the place of a table
     ListPointNumber
+  | -- | the degree of a B-spline
+    CurveDegree
   | -- | the number of corners of a regular polygon
     CornerCount
   | -- | the number of teeth of a gear
@@ -191,6 +193,7 @@ wholeName number = case number of
   ItemNumber -> "the number of an item"
   TableRowNumber -> "the number of a row"
   ListPointNumber -> "the number of a point"
+  CurveDegree -> "the degree of a B-spline"
   CornerCount -> "the number of corners"
   ToothCount -> "the number of teeth"
   TabCount -> "the number of tabs"

@@ -88,6 +88,17 @@ shapeReport unit region fault = case fault of
     (report ("a gear cannot have a pressure angle of " <> Decimal.short 3 (degrees angle) <> "°"))
       { hints = ["Write an angle between 0 and 60 deg. The usual one is 20 deg."]
       }
+  WrongSweep angle ->
+    (report title)
+      { hints = ["The angles FROM and TO of a part of an ellipse differ by at most 360 deg."]
+      }
+    where
+      title
+        | abs (degrees angle) < 1e-3 = "this part of an ellipse has no length"
+        | otherwise =
+          "this part of an ellipse turns by "
+            <> Decimal.short 3 (abs (degrees angle))
+            <> " deg, more than once around"
   NoRootCircle ->
     (report "a gear of so few teeth has no root circle") {hints = ["Give the gear more teeth."]}
   PointedTeeth ->

@@ -53,6 +53,8 @@ data ShapeFault
     TooFewCorners
   | -- | a pressure angle that is not between 0 and 60 degrees
     WrongPressureAngle Rad
+  | -- | the angle of a part of an ellipse, which is 0 or larger than a full turn
+    WrongSweep Rad
   | -- | a gear of so few teeth that it has no root circle
     NoRootCircle
   | -- | the flanks of a tooth meet below its tip

@@ -376,6 +376,8 @@ curveFunctions =
     [ ("polyline", "Gives straight lines from point to point."),
       ("spline", "Gives a cubic spline through points."),
       ("closed_spline", "Gives a cubic spline that closes."),
+      ("bezier", "Gives a Bézier curve by its control points and their weights."),
+      ("bspline", "Gives a B-spline by its degree, control points, knots and weights."),
       ("parabola", "Gives parabolas through points 1–3, 3–5 and so on."),
       ("arcs", "Gives smooth arcs through points, or along a curve within a tolerance."),
       ("closed_arcs", "Gives smooth arcs through points, and closes."),

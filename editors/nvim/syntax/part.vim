@@ -44,7 +44,7 @@ syntax match partCutter /\<\(tap\|threadmill\)\ze(/
 syntax keyword partCutter cone blade diameter
 syntax keyword partFunction pi line true false polar intersection centre_of midpoint foot_of tangency point_on horizontal vertical
 syntax keyword partFunction parallel perpendicular circle concentric distance direction_of radius_of length_of x_of y_of spline
-syntax keyword partFunction closed_spline polyline parabola arcs closed_arcs fit sections rows_of points_of point_at_x point_along
+syntax keyword partFunction closed_spline bezier bspline polyline parabola arcs closed_arcs fit sections rows_of points_of point_at_x point_along
 syntax keyword partFunction length_along start_of end_of tangent_of normal_of curvature_of moved rotated mirrored scaled
 syntax keyword partFunction reversed row grid around count_of item_of lift sin cos tan asin acos atan2 sqrt abs min max floor
 syntax match partUnit /\(\d\s*\)\@<=\(\(mm\|cm\|m\|in\)\(\/min\|\/rev\)\?\|ft\/min\)\>/

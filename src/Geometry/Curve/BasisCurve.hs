@@ -1,4 +1,5 @@
--- | Unshifted curves: consecutive spans, each of them a cubic in x and in y, or an arc.
+-- | Unshifted curves: consecutive spans, each of them a cubic in x and in y, an arc, or a Bézier
+-- curve.
 --
 -- The parameter runs from 0 to the count of spans, by 1 over each span; it has no unit. The local
 -- parameter of a span runs from 0 to 1. A shift moves the points of a curve along its normals; a
@@ -20,6 +21,7 @@ module Geometry.Curve.BasisCurve
     fromShapes,
     fromSegmentsAt,
     fromSegments,
+    fromBeziers,
     count,
     arcLength,
     chords,
@@ -30,6 +32,8 @@ module Geometry.Curve.BasisCurve
     spanPointAt,
     lengthTo,
     expansion,
+    direction,
+    degreeAt,
     reversed,
     inReverseOrder,
     lacksRepeatedStart,
@@ -45,6 +49,8 @@ import Data.Maybe (isJust, mapMaybe)
 import Data.Vector (Vector)
 import Data.Vector qualified as Vector
 import Data.Vector.Unboxed qualified as Unboxed
+import Geometry.Curve.Bezier (Bezier)
+import Geometry.Curve.Bezier qualified as Bezier
 import Geometry.Curve.Span (Span (..), SpanShape)
 import Geometry.Curve.Span qualified as Span
 import Geometry.Curve.Spline (Cubics)
@@ -81,7 +87,7 @@ data BasisCurve = BasisCurve
 data SpanList
   = -- | the cubics in x and those in y, in mm; both have one cubic for each span
     Cubical Cubics Cubics
-  | -- | spans of any kind, at least one of them an arc
+  | -- | spans of any kind, at least one of them not a pair of cubics
     Mixed (Vector Span)
   deriving stock (Eq, Show)
 
@@ -197,6 +203,7 @@ toSpanList parts = case traverse polynomial parts of
     polynomial s = case s of
       Polynomial a b -> Just (a, b)
       Round _ -> Nothing
+      Controlled _ -> Nothing
 
 -- | Polyline through the points. It is closed when the last point equals the first.
 polyline :: Vector Point -> Either CurveFault BasisCurve
@@ -374,6 +381,19 @@ fromSegments segments = do
     base = chain Vector.empty parts
     starts = Vector.fromList (map Segment.start (NonEmpty.toList segments))
 
+-- | Base of consecutive Bézier curves, without those that are points. Its rows are the ends of the
+-- others; a closed base has only one row for its start and end.
+fromBeziers :: [Bezier] -> Either CurveFault BasisCurve
+fromBeziers curves = case NonEmpty.nonEmpty (filter (not . Bezier.isPoint) curves) of
+  Nothing -> Left (NoLength 1)
+  Just long -> do
+    let parts = vector Span.fromBezier long
+        base = chain Vector.empty parts
+        starts = Vector.map (fst . Span.ends) parts
+        (_, final) = Span.ends (Vector.last parts)
+    checkJoined parts
+    Right base {rows = rowsAtEnds (if closed base then starts else Vector.snoc starts final)}
+
 -- | Vector of the results of a function on a list, each of them evaluated.
 vector :: (a -> b) -> NonEmpty a -> Vector b
 vector f list = Vector.unfoldrN (NonEmpty.length list) next (NonEmpty.toList list)
@@ -486,6 +506,21 @@ expansion n base s = case spanList base of
       (Spline.series n (Spline.at xs (number s)) (local s))
       (Spline.series n (Spline.at ys (number s)) (local s))
   Mixed parts -> Span.expansion n (parts Vector.! number s) (local s)
+
+-- | Direction of travel just before or just after a point of a span, of length 1, even where the
+-- speed is 0. Nothing if the span is a point.
+direction :: Approach -> BasisCurve -> SpanPoint -> Maybe Vec
+direction approach base s = case spanList base of
+  Cubical xs ys -> ofSpan (Polynomial (Spline.at xs (number s)) (Spline.at ys (number s)))
+  Mixed parts -> ofSpan (parts Vector.! number s)
+  where
+    ofSpan part = Span.direction approach part (local s)
+
+-- | Degree of the span that contains the point.
+degreeAt :: BasisCurve -> SpanPoint -> Int
+degreeAt base s = case spanList base of
+  Cubical _ _ -> 3
+  Mixed parts -> Span.degree (parts Vector.! number s)
 
 -- | Base in the opposite direction.
 reversed :: BasisCurve -> BasisCurve

@@ -79,7 +79,7 @@ cuspOfLayer top lower whole
     -- speed is 0, unless d is 0 there.
     candidates s =
       [ (s, u, shareAt s u)
-        | u <- PointSearch.samples s <> maxima s <> speedMinima top lower whole s
+        | u <- PointSearch.samples whole s <> maxima s <> speedMinima top lower whole s
       ]
     shareAt s u = let (g, _) = productAt s 0 u in g
     productAt s n u =
@@ -90,13 +90,13 @@ cuspOfLayer top lower whole
     maxima s =
       RootFinding.falling
         (\u -> slopes (snd (productAt s 2 u)))
-        [(u, fst (slopes (snd (productAt s 1 u)))) | u <- PointSearch.samples s]
+        [(u, fst (slopes (snd (productAt s 1 u)))) | u <- PointSearch.samples whole s]
 
 -- | Parameters, within a stretch of @whole@, of the local minima of the speed of @lower@. @whole@
 -- is the curve that results from the shift @top@ of @lower@.
 speedMinima :: Layer -> Curve -> Curve -> (Double, Double) -> [Double]
 speedMinima top lower whole stretch =
-  RootFinding.rising slope [(u, fst (slope u)) | u <- PointSearch.samples stretch]
+  RootFinding.rising slope [(u, fst (slope u)) | u <- PointSearch.samples whole stretch]
   where
     slope u =
       let (V2 a b, _) =

@@ -22,8 +22,10 @@ where
 import Base.Crash qualified as Crash
 import Base.Quantity (Mm (..), Rad (..), plus, times)
 import Data.List (minimumBy)
+import Data.Maybe (fromMaybe)
 import Data.Ord (comparing)
 import Geometry.Curve.BasisCurve (CurvePosition)
+import Geometry.Curve.BasisCurve qualified as BasisCurve
 import Geometry.Curve.ShiftedCurve (Curve (..))
 import Geometry.Curve.ShiftedCurve qualified as ShiftedCurve
 import Geometry.Numeric.PowerSeries qualified as PowerSeries
@@ -39,14 +41,19 @@ import Linear.V2 (V2 (..))
 stretches :: Curve -> [(Double, Double)]
 stretches curve = let bs = ShiftedCurve.breaks curve in zip bs (drop 1 bs)
 
--- | Equally spaced parameters over a stretch, both ends included.
-samples :: (Double, Double) -> [Double]
-samples (a, b) =
-  [ if k == sampleSteps then b else a + (b - a) * fromIntegral k / fromIntegral sampleSteps
-    | k <- [0 .. sampleSteps]
+-- | Equally spaced parameters over a stretch, both ends included. A coordinate of a span of degree
+-- p, which may be rational, has up to 2p − 2 extrema, so a stretch on it has 4p steps, at least 8.
+samples :: Curve -> (Double, Double) -> [Double]
+samples curve (a, b) =
+  [ if k == steps then b else a + (b - a) * fromIntegral k / fromIntegral steps
+    | k <- [0 .. steps]
   ]
+  where
+    degree = BasisCurve.degreeAt base (BasisCurve.spanPoint After a base)
+    base = ShiftedCurve.base curve
+    steps = if degree > 3 then 4 * degree else sampleSteps
 
--- | Count of equal steps in which a smooth stretch is sampled.
+-- | Least count of equal steps in which a smooth stretch is sampled.
 sampleSteps :: Int
 sampleSteps = 8
 
@@ -70,7 +77,7 @@ nearest p curve =
     sampled =
       map
         ( \stretch ->
-            (stretch, refineSamples (sample stretch) (map (sample stretch) (samples stretch)))
+            (stretch, refineSamples (sample stretch) (map (sample stretch) (samples curve stretch)))
         )
         (stretches curve)
     sample stretch u =
@@ -135,10 +142,10 @@ atX abscissa curve = distinct (concatMap found (stretches curve))
       roots
         ( map
             (\u -> (u, deviation (PowerSeries.value (x 0 stretch u))))
-            (merge (samples stretch) extrema)
+            (merge (samples curve stretch) extrema)
         )
       where
-        slopes = map (\u -> (u, PowerSeries.coefficient 1 (x 1 stretch u))) (samples stretch)
+        slopes = map (\u -> (u, PowerSeries.coefficient 1 (x 1 stretch u))) (samples curve stretch)
         slope u =
           let a = x 2 stretch u in (PowerSeries.coefficient 1 a, 2 * PowerSeries.coefficient 2 a)
         extrema = merge (RootFinding.rising slope slopes) (RootFinding.falling slope slopes)
@@ -210,9 +217,10 @@ unitTangentAcrossSeam approach curve u
   | otherwise = unitTangent approach curve u
 
 -- | Unit tangent just before or just after parameter @u@. The curve counts as continued beyond its
--- ends, so that there is a tangent before the start and after the end. Where the speed is 0, the
--- tangent is the limit from the given side. Where a shift has collapsed a stretch to a point, the
--- result is the tangent of the curve below the shift.
+-- ends, so that there is a tangent before the start and after the end. Where the speed is 0, as at
+-- the end of a span with two equal control points, the tangent is the limit from the given side.
+-- Where a shift has collapsed a stretch to a point, the result is the tangent of the curve below
+-- the shift.
 unitTangent :: Approach -> Curve -> Double -> Vec
 unitTangent approach curve u = case TaylorExpansion.direction approach (expansion 1) of
   Just d -> d
@@ -220,6 +228,10 @@ unitTangent approach curve u = case TaylorExpansion.direction approach (expansio
     Just d -> d
     Nothing -> case curve of
       Shifted _ lower _ -> unitTangent approach lower u
-      Unshifted _ -> Crash.bug "a span that is a point"
+      Unshifted base ->
+        fromMaybe
+          (Crash.bug "a span that is a point")
+          (BasisCurve.direction approach base (BasisCurve.spanPointAt position base))
   where
-    expansion n = ShiftedCurve.expansionAt n curve (ShiftedCurve.position approach u curve)
+    position = ShiftedCurve.position approach u curve
+    expansion n = ShiftedCurve.expansionAt n curve position

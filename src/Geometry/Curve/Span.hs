@@ -4,10 +4,13 @@ module Geometry.Curve.Span
     SpanShape (..),
     fromShape,
     fromSegment,
+    fromBezier,
     ends,
     segment,
     isPoint,
     expansion,
+    direction,
+    degree,
     reversed,
     transformed,
     image,
@@ -15,11 +18,14 @@ module Geometry.Curve.Span
 where
 
 import Base.Quantity (Rad (..))
+import Geometry.Curve.Bezier (Bezier)
+import Geometry.Curve.Bezier qualified as Bezier
 import Geometry.Curve.Spline (Cubic (..))
 import Geometry.Curve.Spline qualified as Spline
 import Geometry.Numeric.PowerSeries (PowerSeries)
 import Geometry.Numeric.PowerSeries qualified as PowerSeries
-import Geometry.Numeric.TaylorExpansion (TaylorExpansion)
+import Geometry.Numeric.TaylorExpansion (Approach, TaylorExpansion)
+import Geometry.Numeric.TaylorExpansion qualified as TaylorExpansion
 import Geometry.Segment (Segment (..))
 import Geometry.Segment qualified as Segment
 import Geometry.Tolerance qualified as Tolerance
@@ -35,6 +41,8 @@ data Span
     Polynomial Cubic Cubic
   | -- | an arc, along which the parameter is proportional to the length
     Round Segment
+  | -- | a Bézier curve that is rational or has a degree above 3
+    Controlled Bezier
   deriving stock (Eq, Show)
 
 -- | Shape of a part of a curve, as a part program or an input sheet gives it.
@@ -65,6 +73,10 @@ fromSegment s = case s of
   Straight p q -> fromShape (Line p q)
   Arc {} -> Round s
 
+-- | Span along a Bézier curve: a pair of cubics if it is a polynomial of degree 3 or less.
+fromBezier :: Bezier -> Span
+fromBezier c = maybe (Controlled c) (uncurry Polynomial) (Bezier.cubics c)
+
 -- | Start and end of a span.
 ends :: Span -> (Point, Point)
 ends s = case s of
@@ -73,6 +85,7 @@ ends s = case s of
           Vec.point (Spline.value x t) (Spline.value y t)
      in (place 0, place 1)
   Round g -> (Segment.start g, Segment.end g)
+  Controlled c -> Bezier.ends c
 
 -- | Span as a segment; Nothing if it is neither a line nor an arc.
 segment :: Span -> Maybe Segment
@@ -80,14 +93,18 @@ segment s = case s of
   Polynomial (Cubic _ _ 0 0) (Cubic _ _ 0 0) -> let (p, q) = ends s in Just (Straight p q)
   Polynomial _ _ -> Nothing
   Round g -> Just g
+  Controlled _ -> Nothing
 
--- | True if a span counts as a point, so that a curve cannot contain it. A span of cubics counts as
--- a point if its ends coincide, an arc if its length is at most 'Tolerance.coincident'. So a full
--- circle is not a point.
+-- | True if a span counts as a point, so that a curve cannot contain it. A span of polynomials
+-- counts as a point if all its control points coincide, an arc if its length is at most
+-- 'Tolerance.coincident'. So a full circle and a loop are not points.
 isPoint :: Span -> Bool
 isPoint s = case s of
-  Polynomial _ _ -> let (p, q) = ends s in Vec.isNear p q
+  Polynomial x y ->
+    let p = Vec.point (Spline.value x 0) (Spline.value y 0)
+     in and (zipWith (\a b -> Vec.isNear p (Vec.point a b)) (Spline.controls x) (Spline.controls y))
   Round g -> Segment.length g <= Tolerance.coincident
+  Controlled c -> Bezier.isPoint c
 
 -- | Taylor expansion of the point of a span, in mm, about the local parameter @t@, up to the power
 -- @n@.
@@ -101,6 +118,22 @@ expansion n s t = case s of
         terms = zipWith Vec.scale factors (iterate Vec.left rotated)
      in fromCoefficients n centre terms
   Round (Straight p q) -> fromCoefficients n p [Vec.scale t (Vec.to p q), Vec.to p q]
+  Controlled c -> Bezier.expansion n c t
+
+-- | Direction of travel just before or just after the local parameter @t@, of length 1, even where
+-- the speed is 0. Nothing if the span is a point.
+direction :: Approach -> Span -> Double -> Maybe Vec
+direction approach s t = case s of
+  Polynomial _ _ -> TaylorExpansion.direction approach (expansion 3 s t)
+  Round _ -> TaylorExpansion.direction approach (expansion 1 s t)
+  Controlled c -> Just (Bezier.direction approach c t)
+
+-- | Degree of the polynomials of a span; that of an arc, by its length, counts as 3.
+degree :: Span -> Int
+degree s = case s of
+  Polynomial _ _ -> 3
+  Round _ -> 3
+  Controlled c -> Bezier.degree c
 
 -- | Taylor expansion up to the power @n@. @terms@ are the coefficients of the powers from 0 on; the
 -- point @p@ is added to the first of them.
@@ -117,6 +150,7 @@ reversed :: Span -> Span
 reversed s = case s of
   Polynomial x y -> Polynomial (Spline.reversed x) (Spline.reversed y)
   Round g -> Round (Segment.reverse g)
+  Controlled c -> Controlled (Bezier.reversed c)
 
 -- | Image of a span under a similarity. For cubics, the constant coefficients are mapped as a point
 -- and the coefficients of each higher power as a displacement.
@@ -129,6 +163,7 @@ transformed s g = case g of
         (a3, b3) = components (image s (Vec.vec x3 y3))
      in Polynomial (Cubic (Vec.x p) a1 a2 a3) (Cubic (Vec.y p) b1 b2 b3)
   Round arc -> Round (Transformation.segment s arc)
+  Controlled c -> Controlled (Bezier.transformed s c)
 
 -- | Image of the displacement @v@: it is rotated, scaled and reflected, but not moved.
 image :: Transformation -> Vec -> Vec

@@ -6,6 +6,7 @@ module Geometry.Curve.Spline
   ( -- * One cubic
     Cubic (..),
     coefficients,
+    controls,
     line,
     value,
     rate,
@@ -40,6 +41,10 @@ data Cubic = Cubic Double Double Double Double
 -- | The four coefficients of a cubic in the order of ascending powers.
 coefficients :: Cubic -> [Double]
 coefficients (Cubic a b c d) = [a, b, c, d]
+
+-- | The four Bernstein coefficients of a cubic: those of its control points.
+controls :: Cubic -> [Double]
+controls (Cubic a b c d) = [a, a + b / 3, a + (2 * b + c) / 3, a + b + c + d]
 
 -- | Cubic that is a linear function with the value @p@ at 0 and @q@ at 1.
 line :: Double -> Double -> Cubic

@@ -13,6 +13,7 @@ module Geometry.Numeric.PowerSeries
     constant,
     cubic,
     fromList,
+    fromVector,
     coefficients,
     order,
     value,
@@ -54,6 +55,13 @@ cubic n a b c d =
 -- | The series of order @n@ whose first coefficients are those of the list @cs@; the others are 0.
 fromList :: Int -> [Double] -> PowerSeries
 fromList n cs = PowerSeries (Unboxed.fromListN (n + 1) (take (n + 1) (cs <> repeat 0)))
+
+-- | The series of order @n@ whose first coefficients are those of the vector @cs@; the others are
+-- 0.
+fromVector :: Int -> Vector Double -> PowerSeries
+fromVector n cs
+  | Unboxed.length cs > n = PowerSeries (Unboxed.take (n + 1) cs)
+  | otherwise = PowerSeries (cs <> Unboxed.replicate (n + 1 - Unboxed.length cs) 0)
 
 -- | The coefficients from c₀ on.
 coefficients :: PowerSeries -> [Double]
