@@ -14,6 +14,11 @@ module Generate.Curve
     parabola,
     toSegments,
     pieces,
+    bezier,
+    bspline,
+    knotsFor,
+    weights,
+    controlPoints,
     parameter,
     parameterOf,
     tightest,
@@ -67,7 +72,7 @@ ok = either (error . show) id
 -- ("Geometry.Curve.ShiftedCurve"), so the laws of other curves do not hold there.
 anyCurve :: Gen Curve
 anyCurve =
-  frequency [(2, smooth), (1, polyline), (1, parabola), (1, toSegments), (1, pieces)]
+  frequency [(2, smooth), (1, polyline), (1, parabola), (1, toSegments), (1, pieces), (1, bezier), (1, bspline)]
     `suchThat` (null . slightCorners)
 
 -- | The parameters of the corners at which a curve turns by at most 'Tolerance.kink'.
@@ -221,6 +226,63 @@ pieces = do
             (Exts.fromList (scanl (+) 0 inner <> [3]))
         )
     )
+
+-- | A Bézier curve of any degree, with and without weights.
+bezier :: Gen Curve
+bezier = do
+  n <- frequency [(3, choose (2, 7)), (1, choose (8, 21))]
+  points <- controlPoints n
+  ws <- weights n
+  pure (ok (Curve.bezier (Exts.fromList points) ws))
+
+-- | A B-spline of a degree up to 6, with and without weights, with any knots.
+bspline :: Gen Curve
+bspline = do
+  degree <- choose (1, 6)
+  n <- choose (degree + 1, degree + 6)
+  points <- controlPoints n
+  ws <- weights n
+  knots <- knotsFor degree n
+  pure (ok (Curve.bspline (ok (Curve.knotVector degree n knots)) (Exts.fromList points) ws))
+
+-- | Control points of a curve whose direction turns by less than a right angle.
+controlPoints :: Int -> Gen [Point]
+controlPoints n = do
+  begin <- choose (-3.1, 3.1)
+  turns <- vectorOf n (choose (-1.5 / fromIntegral n, 1.5 / fromIntegral n))
+  Table _ points <- fromTurns begin turns
+  pure points
+
+-- | Weights of control points, or none.
+weights :: Int -> Gen (Maybe Curve.Weights)
+weights n = do
+  list <- vectorOf n (choose (0.5, 2))
+  elements [Nothing, Just (ok (Curve.weightsFor n list))]
+
+-- | The knots of a B-spline with n control points. Those outside of the curve may differ from its
+-- ends or not, and some knots within it are equal.
+knotsFor :: Int -> Int -> Gen [Double]
+knotsFor degree n = do
+  begin <- choose (-5, 5)
+  isClamped <- arbitrary
+  outer <- vectorOf (2 * degree) (choose (0.2, 2))
+  runs <- lengths (n - degree - 1)
+  steps <- vectorOf (length runs + 1) (choose (0.2, 2))
+  let inner = drop 1 (scanl (+) begin steps)
+      (before, after) = splitAt degree (map (if isClamped then const 0 else id) outer)
+  pure
+    ( reverse (drop 1 (scanl (-) begin before))
+        <> [begin]
+        <> concat (zipWith replicate runs inner)
+        <> scanl (+) (last inner) after
+    )
+  where
+    -- Multiplicities, each at most the degree, of @count@ knots together.
+    lengths count
+      | count <= 0 = pure []
+      | otherwise = do
+        k <- frequency [(3, pure 1), (1, choose (1, min count degree))]
+        (k :) <$> lengths (count - k)
 
 -- | A parameter of a curve as a fraction of its domain, from 0 to 1. It may be at a row or an end.
 parameter :: Gen Double

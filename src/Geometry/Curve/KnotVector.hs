@@ -44,9 +44,9 @@ knotVector :: Int -> Int -> [Double] -> Either KnotFault KnotVector
 knotVector p count list
   | count <= p = Left (FewControlPoints count)
   | Unboxed.length given /= needed = Left (KnotCount (Unboxed.length given) needed)
-  | Just k <- find (\i -> not (given Unboxed.! i >= given Unboxed.! (i - 1))) [1 .. needed - 1] =
+  | Just k <- find (\i -> given Unboxed.! i < given Unboxed.! (i - 1)) [1 .. needed - 1] =
     Left (FallingKnot (k + 1))
-  | not (first < final) = Left (NoInterval (p + 1) (count + 1))
+  | first >= final = Left (NoInterval (p + 1) (count + 1))
   | Just fault <- repeated = Left fault
   | otherwise = Right KnotVector {degree = p, knots = equalised}
   where
