@@ -224,6 +224,7 @@ longFunctions =
         "Project.Error.reportWith",
         "Sheet.Error.toReport",
         "Sheet.Unsupported.toReport",
+        "Surface.DrawingError.toReport",
         "Surface.Error.toReport",
         "Surface.Grammar.statementForms",
         "Surface.StatementForm.statementForms",

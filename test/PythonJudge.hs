@@ -6,8 +6,8 @@ import System.Exit (ExitCode (ExitSuccess))
 import System.Process (readProcessWithExitCode)
 import Test.Hspec
 
--- | The expectation that a script finds no fault in the program @partc@. The script gets the path of
--- the program and then @arguments@; its output tells of the faults. Pending without the Python
+-- | The expectation that a script finds no fault in the program @partc@. The script gets the path
+-- of the program and then @arguments@; its output tells of the faults. Pending without the Python
 -- packages that it imports, which come as their Python names and as the names of Debian packages.
 agrees :: FilePath -> [(String, String)] -> [String] -> Expectation
 agrees script packages arguments = do

@@ -24,6 +24,7 @@ module Base.Region
     offset,
     lineText,
     linesIn,
+    numbered,
   )
 where
 

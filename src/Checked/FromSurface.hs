@@ -150,6 +150,8 @@ statement env (Located at s) = case s of
   Surface.Param n e -> done (valueDefinition n (infer env e))
   Surface.LetFunction n parameters e -> done (functionDefinition env n parameters e)
   Surface.Contour n closure items -> done (contourDefinition env n closure items)
+  -- "Surface.Import" has put the outlines of the drawing in its place.
+  Surface.Drawn {} -> pure Nothing
   Surface.Table n written -> done (tableDefinition env n written)
   Surface.Curve n e -> done (valueDefinition n (curve env e))
   Surface.Piece n e ciphers side joggles -> done (pieceDefinition env n e ciphers side joggles)
@@ -369,6 +371,7 @@ tableDefinition env name written = do
     tableLines = case written of
       Surface.WrittenLines ls -> ls
       Surface.LinesFromFile _ -> []
+      Surface.LinesFromDrawing _ -> []
 
 -- | Checks the definition of a piece, and binds its name. "Checked.Piece" defines this term.
 pieceDefinition ::

@@ -93,7 +93,10 @@ ownFiles file input = file : imported <> concatMap asWritten described
 -- | A reader of imported files that gets their texts from @contents@. It compares files by their
 -- canonical paths, so a file with two paths is imported only once.
 readerFrom :: (FilePath -> IO (Either Text Text)) -> Import.Reader IO
-readerFrom contents = Import.Reader {Import.contents, Import.identity, Import.listing}
+readerFrom contents =
+  Import.Reader {Import.contents, Import.bytes, Import.identity, Import.listing}
+  where
+    bytes path = either (Left . Cli.reason) Right <$> readBytes path
 
 -- | The names of the files in a folder; none if it cannot be read.
 listing :: FilePath -> IO [FilePath]

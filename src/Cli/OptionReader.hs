@@ -2,6 +2,7 @@
 module Cli.OptionReader
   ( tickRange,
     switchRadius,
+    joiningDistance,
     fromTo,
     portNumber,
     choice,
@@ -34,6 +35,12 @@ switchRadius = Opt.maybeReader $ \text -> case break (== '=') text of
   _ -> Nothing
   where
     positive r = if r >= 0 && r < 1e6 then Just (Mm r) else Nothing
+
+-- | A distance in mm above 0.
+joiningDistance :: Opt.ReadM Mm
+joiningDistance = Opt.eitherReader $ \word -> case readMaybe word of
+  Just d | d > 0 && d < 1e6 -> Right (Mm d)
+  _ -> Left ("‘" <> word <> "’ is not a distance in mm above 0")
 
 -- | Reads a range of numbers that count from 1, for example @3..8@; @3@ means @3..3@. The result
 -- is the first and the last number of the range.

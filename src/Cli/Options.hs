@@ -12,7 +12,15 @@ module Cli.Options
 where
 
 import Base.Quantity (Mm (..))
-import Cli.OptionReader (assignment, choice, fromTo, portNumber, switchRadius, tickRange)
+import Cli.ImportCommand (ImportOptions (..), importOptions)
+import Cli.OptionReader
+  ( assignment,
+    choice,
+    fromTo,
+    portNumber,
+    switchRadius,
+    tickRange,
+  )
 import Cli.Output (ColourChoice (..), Format (..), OutputSettings (..))
 import Control.Applicative (many, optional, some, (<|>))
 import Control.Monad (void)
@@ -53,8 +61,7 @@ data Subcommand
     Frames FilePath (Maybe Text) FrameForm
   | -- | the program, the machine, true to list the reference points of pieces, too
     Report FilePath (Maybe Text) Bool
-  | -- | the input sheet, the program to write
-    Import FilePath (Maybe FilePath)
+  | Import ImportOptions
   | -- | the program, the input sheet to write
     ExportSheet FilePath (Maybe FilePath)
   | -- | the machine, without which the command fails; the tape
@@ -216,9 +223,9 @@ commands =
         (Preview <$> previewOptions),
       entry
         "import"
-        "Make a part program of an input sheet"
-        "partc import rib.sheet -o rib.part"
-        (Import <$> sheet <*> optional outputFile),
+        "Make a part program of an input sheet or a drawing"
+        "partc import plate.dxf -o plate.part"
+        (Import <$> importOptions outputFile),
       entry
         "export-sheet"
         "Make an input sheet of a program"
@@ -445,11 +452,6 @@ program =
           "A part program, or an input sheet NAME.sheet; - for a program on standard input"
         <> Opt.action "file"
     )
-
-sheet :: Parser FilePath
-sheet =
-  Opt.strArgument
-    (Opt.metavar "SHEET" <> Opt.help "An input sheet; - for standard input" <> Opt.action "file")
 
 tape :: Parser FilePath
 tape =

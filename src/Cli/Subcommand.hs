@@ -20,13 +20,13 @@ import Cli.Formatter qualified as Formatter
 import Cli.FrameTable qualified as FrameTable
 import Cli.GcodeFile (GcodeFile (GcodeFile))
 import Cli.GcodeFile qualified as GcodeFile
+import Cli.ImportCommand (importFile)
 import Cli.InputFile
   ( Input (..),
     descriptionsFor,
     displayName,
     ownFiles,
     readBytes,
-    readProgram,
     source,
     withInput,
     withoutSurface,
@@ -76,10 +76,7 @@ import Project.Target qualified as Target
 import Query.Snapshot qualified as Snapshot
 import Report.Explanation qualified as Explanation
 import Report.Report (Report)
-import Sheet.Error qualified as Sheet
 import Sheet.FromPart qualified as Sheet
-import Sheet.FromText qualified as Sheet
-import Sheet.ToSurface qualified as Sheet
 import Sheet.ToText qualified as Sheet
 import Sheet.Unsupported qualified as Unsupported
 import System.FilePath (takeFileName)
@@ -108,7 +105,7 @@ perform reporter command = case command of
   Verify file target tape withPulses -> verify reporter file target tape withPulses
   Frames file target form -> frames reporter file target form
   Report file target withPoints -> report reporter file target withPoints
-  Import file output -> importSheet reporter file output
+  Import options -> importFile reporter options
   ExportSheet file output -> exportSheet reporter file output
   Decode target tape -> decode reporter target tape
   Run options -> RunCommand.run reporter options
@@ -390,23 +387,6 @@ framesOf :: Punched -> [Frame]
 framesOf = map Frame.frame . Frame.plannedFrames . program
 
 -- Input sheets ------------------------------------------------------------------------------------
-
--- | Converts an input sheet to a part program.
-importSheet :: Reporter -> FilePath -> Maybe FilePath -> IO Exit
-importSheet reporter file wanted = do
-  content <- readProgram file
-  case content of
-    Left e -> failWith reporter sheetName e
-    Right text -> do
-      let result = Result.mapErrors id Sheet.toReport (Sheet.read text)
-      isStopped <-
-        Output.showReports reporter sheetName (Region.fromText sheetName text) (errors result)
-      case output result of
-        Just sheet
-          | not isStopped -> writeText reporter sheetName [file] wanted (Sheet.text sheet)
-        _ -> pure Failed
-  where
-    sheetName = displayName file
 
 -- | Converts a part program to an input sheet.
 exportSheet :: Reporter -> FilePath -> Maybe FilePath -> IO Exit

@@ -30,6 +30,7 @@ import Compile qualified
 import Data.Bifunctor (first)
 import Data.Functor.Identity (Identity (..))
 import Data.List qualified as List
+import Data.ByteString.Char8 qualified as Char8
 import Data.Map.Strict qualified as Map
 import Data.Maybe qualified as Maybe
 import Data.Text (Text)
@@ -231,16 +232,17 @@ loadedWith now changed path text =
   where
     reader =
       Import.Reader
-        { Import.contents = \file ->
-            Identity
-              ( maybe
-                  (Left "it is not part of the program")
-                  Right
-                  (Map.lookup (identityOf now (Text.pack file)) texts)
-              ),
+        { Import.contents = Identity . textAt,
+          -- The texts of drawings have a character for each byte.
+          Import.bytes = Identity . fmap (Char8.pack . Text.unpack) . textAt,
           Import.identity = Identity . Text.unpack . identityOf now . Text.pack,
           Import.listing = const (Identity [])
         }
+    textAt file =
+      maybe
+        (Left "it is not part of the program")
+        Right
+        (Map.lookup (identityOf now (Text.pack file)) texts)
     -- The first of several texts with the same identity counts.
     texts =
       Map.fromListWith

@@ -100,6 +100,7 @@ symbol source (Located whole s) = case s of
   Param name _ -> definition Value name "param"
   LetFunction name parameters _ -> definition Function name (parameterList parameters)
   Contour name _ _ -> definition Contour' name ""
+  Drawn _ name _ -> definition Contour' name ""
   Table name _ -> definition Value name "table"
   Curve name _ -> definition Value name "curve"
   Piece name _ _ _ _ -> definition Value name "piece"

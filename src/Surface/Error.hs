@@ -28,6 +28,8 @@ import Report.Report (Label (..), Report (..), ReportPlace (..), Severity (..), 
 import Report.Report qualified as Report
 import Surface.CharacterFix qualified as CharacterFix
 import Surface.CharacterReport (lookAlikeHint, strayHint, strayTitle)
+import Surface.DrawingError (DrawingMistake)
+import Surface.DrawingError qualified as DrawingError
 import Surface.FileUnitReport qualified as FileUnitReport
 import Surface.Foreign (ForeignLanguage, ForeignLine)
 import Surface.ForeignReport (foreignReport)
@@ -85,9 +87,11 @@ data Error
     ImportTooDeep Region Text Int
   | -- | an import of an input sheet: the name of the file as written
     ImportOfSheet Region Text
-  | -- | a table file that cannot be read: its name as written, the reason, and the name of a file
-    -- that may be meant
-    LinesMissing Region Text Text (Maybe Text)
+  | -- | a table or a drawing that cannot be read: the word for it, its name as written, the reason,
+    -- and the name of a file that may be meant
+    FileMissing Region Text Text Text (Maybe Text)
+  | -- | a mistake in a drawing, or a remark about it
+    InDrawing DrawingMistake
   | -- | an import cycle: the paths of files, each of which imports the next one; the first path is
     -- also the last
     ImportCycle Region [Text]
@@ -286,11 +290,12 @@ toReport err = case err of
       { fixes = TokenFix.coordinateFixes region tokens,
         hints = ["A number has a decimal point, 59.3, and a comma separates two values."]
       }
-  LinesMissing region name why near ->
-    (at region "E0112" ("the table " <> quote name <> " cannot be read: " <> why))
+  FileMissing region kind name why near ->
+    (at region "E0112" ("the " <> kind <> " " <> quote name <> " cannot be read: " <> why))
       { fixes = nearFile region near,
         hints = ["The name is looked for from the folder of the file that names it." | null near]
       }
+  InDrawing fault -> DrawingError.toReport fault
   ImportMissing region name why near
     | null near -> notImported region name why
     | otherwise -> (notImported region name why) {fixes = nearFile region near, hints = []}

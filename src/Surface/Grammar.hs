@@ -29,6 +29,7 @@ import Report.Report (quote)
 import Surface.Combinator
 import Surface.Combinator.Fast (FastParser)
 import Surface.Combinator.Fast qualified as FastCombinator
+import Surface.DrawingGrammar (drawingPart, fromFile)
 import Surface.Error (Enclosure (..))
 import Surface.HoleForm qualified as HoleForm
 import Surface.HoleGrammar (cutter, hole)
@@ -89,6 +90,7 @@ statementForms =
     ("let", definition),
     ("param", Param <$> name <* symbol "=" <*> expr),
     ("contour", contour),
+    ("contours", Drawn AllOutlines <$> name <* keyword "from" <*> drawingPart number),
     ("table", Table <$> name <*> lines'),
     ("curve", Curve <$> name <* symbol "=" <*> expr),
     ("piece", piece),
@@ -186,17 +188,22 @@ definition = do
   body <- expr
   pure (maybe (LetValue what body) (\ps -> LetFunction what ps body) parameters)
 
--- | A contour statement after its keyword: the name, @open@ or @closed@, and the block of items.
+-- | A contour statement after its keyword: the name, and @open@ or @closed@ with the block of
+-- items, or @from@ with a part of a drawing.
 contour :: Parser Statement_
 contour = do
   what <- name
-  closure <- located ((Closed <$ keyword "closed") <|> (Open <$ keyword "open"))
-  Contour what closure <$> block (ContourBlock (Name.text (value what))) BrokenItem item
+  drawn what <|> written what
+  where
+    drawn what = keyword "from" *> (Drawn OneOutline what <$> drawingPart number)
+    written what = do
+      closure <- located ((Closed <$ keyword "closed") <|> (Open <$ keyword "open"))
+      Contour what closure <$> block (ContourBlock (Name.text (value what))) BrokenItem item
 
--- | The lines of a table in braces, or the name of a file.
+-- | The lines of a table in braces, or the name of a file, with a part of it if it is a drawing.
 lines' :: Parser Lines
 lines' =
-  (LinesFromFile <$> (keyword "from" *> (text' <?> "the name of a file in quotation marks")))
+  (fromFile <$> (keyword "from" *> drawingPart number))
     <|> (WrittenLines <$> block TableBlock (const BrokenLine) line)
 
 -- | A line of a table: one or more headings, or one or more cells. Their counts are not compared.

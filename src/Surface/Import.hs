@@ -12,23 +12,35 @@ module Surface.Import
 where
 
 import Base.Name qualified as Name
-import Base.Quantity (LengthUnit)
+import Base.Quantity (LengthUnit, Mm)
 import Base.Region (Located (..), Region, Source)
 import Base.Region qualified as Region
 import Base.Result (Result (..))
 import Control.Monad.State.Strict (StateT, get, gets, lift, modify', put, runStateT)
+import Data.ByteString (ByteString)
 import Data.Map.Strict (Map)
 import Data.Map.Strict qualified as Map
-import Data.Maybe (listToMaybe)
+import Data.Maybe (fromMaybe, listToMaybe)
 import Data.Set (Set)
 import Data.Set qualified as Set
 import Data.Text (Text)
 import Data.Text qualified as Text
+import Data.Text.Encoding qualified as Encoding
+import Drawing.Drawing (Entity)
 import Surface.Csv qualified as Csv
 import Surface.Error (Error (..))
 import Surface.FileUnit qualified as FileUnit
+import Surface.FromDrawing (Converted (..), DrawingText (drawing))
+import Surface.FromDrawing qualified as FromDrawing
 import Surface.Parser qualified as Parser
-import Surface.Syntax (Lines (..), Program (..), Statement, Statement_ (..), TableLine)
+import Surface.Syntax
+  ( DrawingPart (..),
+    Lines (..),
+    Program (..),
+    Statement,
+    Statement_ (..),
+    TableLine,
+  )
 import System.FilePath
   ( dropExtension,
     isAbsolute,
@@ -45,15 +57,24 @@ import System.FilePath
 data Reader m = Reader
   { -- | the text of a file, or the reason why it cannot be read
     contents :: FilePath -> m (Either Text Text),
+    -- | the bytes of a file, or the reason why it cannot be read
+    bytes :: FilePath -> m (Either Text ByteString),
     -- | the identity of a file: the same result for all paths that lead to the same file
     identity :: FilePath -> m FilePath,
     -- | the names of the files in a folder; none if they are not known
     listing :: FilePath -> m [FilePath]
   }
 
--- | A reader that treats files with different paths as different files, and knows no folders.
+-- | A reader that treats files with different paths as different files, and knows no folders. The
+-- bytes of a file are its text in UTF-8.
 byName :: Monad m => (FilePath -> m (Either Text Text)) -> Reader m
-byName contents = Reader {contents, identity = pure, listing = const (pure [])}
+byName contents =
+  Reader
+    { contents,
+      bytes = fmap (fmap Encoding.encodeUtf8) . contents,
+      identity = pure,
+      listing = const (pure [])
+    }
 
 -- | A program with its imports replaced, and the texts of all files.
 data ImportedProgram = ImportedProgram
@@ -73,6 +94,11 @@ data Progress = Progress
     seen :: Set FilePath,
     -- | the mistakes, the newest first
     found :: [Error],
+    -- | the remarks about drawings, the newest first
+    noted :: [Error],
+    -- | the drawings read so far, by their paths and the units that statements give them; Nothing
+    -- for one with a mistake
+    drawings :: Map (FilePath, Maybe LengthUnit) (Maybe DrawingText),
     -- | the regions of the names of imported files and table files, with the paths of these files,
     -- the newest first
     named :: [(Region, Text)],
@@ -91,6 +117,8 @@ load reader path text = do
           { texts = Region.fromText (Text.pack path) text,
             seen = Set.singleton itself,
             found = [],
+            noted = [],
+            drawings = Map.empty,
             named = [],
             unitsFound = Map.empty
           }
@@ -98,7 +126,8 @@ load reader path text = do
     Nothing ->
       pure ImportedProgram {source = texts begin, surface = Result [] errors Nothing, imports = []}
     Just whole -> do
-      let chain = Chain {open = [(itself, simplified path)], file = path}
+      let chain =
+            Chain {open = [(itself, simplified path)], file = path, unitAt = FileUnit.unitAt whole}
       (statements', progress) <-
         runStateT (replaceImports reader chain (statements whole)) begin
       pure
@@ -106,7 +135,7 @@ load reader path text = do
           { source = texts progress,
             surface =
               Result
-                []
+                (reverse (noted progress))
                 (errors <> FileUnit.misplaced (statements whole) <> reverse (found progress))
                 (Just whole {statements = statements', units = units whole <> unitsFound progress}),
             imports = reverse (named progress)
@@ -119,7 +148,9 @@ data Chain = Chain
     -- program the last
     open :: [(FilePath, FilePath)],
     -- | the path of the file being read
-    file :: FilePath
+    file :: FilePath,
+    -- | the unit of a number without one, at a region of the file
+    unitAt :: Region -> LengthUnit
   }
 
 -- | The file that an @import@ statement names: the region of the name, the name as written, the
@@ -157,7 +188,82 @@ replaceImports reader chain = fmap concat . mapM replace
               Just ls -> Located region (Table name (WrittenLines ls))
               Nothing -> Located region (Broken (Just "table") (Just name))
           ]
+      Located region (Table name (LinesFromDrawing part)) -> do
+        rows <- fromDrawing reader chain part $ \text nameAt (_, chosen) ->
+          FromDrawing.tableLines text nameAt chosen
+        let table = maybe (Broken (Just "table") (Just name)) (Table name . WrittenLines) rows
+        pure [Located region table]
+      Located region (Drawn asked name part) -> do
+        made <- fromDrawing reader chain part $ \text nameAt chosen ->
+          FromDrawing.contours text region nameAt asked name chosen
+        pure (fromMaybe [Located region (Broken (Just "contour") (Just name))] made)
       _ -> pure [s]
+
+-- | Result of @make@ for a part of a drawing, from the drawing, the region of the name of its
+-- file, the distance of ends that are joined, and the chosen entities. Records mistakes and
+-- remarks; 'Nothing' if there are mistakes.
+fromDrawing ::
+  Monad m =>
+  Reader m ->
+  Chain ->
+  DrawingPart ->
+  (DrawingText -> Region -> (Mm, [Entity]) -> Converted a) ->
+  StateT Progress m (Maybe a)
+fromDrawing reader chain part make = do
+  path <- namedPath chain at name
+  read' <- drawingText reader part path
+  case (,) <$> read' <*> pure (FromDrawing.distance (unitAt chain at) (joinedWithin part)) of
+    Nothing -> pure Nothing
+    Just (_, Left fault) -> recorded (Converted [fault] [] Nothing)
+    Just (text, Right tolerance) ->
+      case FromDrawing.chosenFrom at (selection part) (drawing text) of
+        Left fault -> recorded (Converted [fault] [] Nothing)
+        Right chosen -> recorded (Just <$> make text at (tolerance, chosen))
+  where
+    Located at name = drawingFile part
+
+-- | Records the mistakes and the remarks of what a drawing gives. 'Nothing' if there are mistakes.
+recorded :: Monad m => Converted (Maybe a) -> StateT Progress m (Maybe a)
+recorded Converted {mistakes, notes, given} = do
+  modify' $ \p ->
+    p
+      { found = reverse (map InDrawing mistakes) <> found p,
+        noted = reverse (map InDrawing notes) <> noted p
+      }
+  pure (if null mistakes then given else Nothing)
+
+-- | The drawing that a part of a drawing names, by its path. It is read once for each unit that
+-- statements give it. Records its mistakes and remarks; 'Nothing' if it cannot be read.
+drawingText ::
+  Monad m => Reader m -> DrawingPart -> FilePath -> StateT Progress m (Maybe DrawingText)
+drawingText reader part path = do
+  known <- gets (Map.lookup key . drawings)
+  case known of
+    Just before -> pure before
+    Nothing -> do
+      content <- lift (bytes reader path)
+      result <- case content of
+        Left reason -> do
+          near <- lift (neighbour reader path name [".dxf", ".svg"] [])
+          Nothing <$ modify' (\p -> p {found = FileMissing at "drawing" name reason near : found p})
+        Right content' -> do
+          progress <- get
+          let begin = Region.nextOffset (texts progress)
+              shown = Encoding.decodeLatin1 content'
+              (faults, remarks, made) =
+                FromDrawing.fromBytes (drawingFile part) unit (begin, shown) content'
+          put
+            progress
+              { texts = Region.addFile (Text.pack path) shown (texts progress),
+                found = reverse (map InDrawing faults) <> found progress,
+                noted = reverse (map InDrawing remarks) <> noted progress
+              }
+          pure made
+      result <$ modify' (\p -> p {drawings = Map.insert key result (drawings p)})
+  where
+    Located at name = drawingFile part
+    unit = value <$> drawingUnit part
+    key = (path, unit)
 
 -- | Records that the file being read names another file at the region @at@. Gives the path of the
 -- other file, whose name is relative to the folder of the file being read.
@@ -210,7 +316,11 @@ readProgram reader chain i = do
       filter isDefinition
         <$> replaceImports
           reader
-          Chain {open = (importIdentity i, importPath i) : open chain, file = importPath i}
+          Chain
+            { open = (importIdentity i, importPath i) : open chain,
+              file = importPath i,
+              unitAt = maybe (unitAt chain) FileUnit.unitAt output
+            }
           (maybe [] statements output)
 
 -- | Reads the lines of a table from the file that is named at the region @at@. Records the errors;
@@ -228,7 +338,7 @@ tableLines reader at path name = do
   case content of
     Left reason -> do
       near <- lift (neighbour reader path name [".csv", ".txt"] [])
-      Nothing <$ modify' (\p -> p {found = LinesMissing at name reason near : found p})
+      Nothing <$ modify' (\p -> p {found = FileMissing at "table" name reason near : found p})
     Right text -> do
       progress <- get
       let (errors, rows) = Csv.table (Region.nextOffset (texts progress)) text
@@ -278,6 +388,7 @@ isDefinition (Located _ s) = case s of
   LetFunction {} -> True
   Param _ _ -> True
   Contour {} -> True
+  Drawn {} -> True
   Table _ _ -> True
   Curve _ _ -> True
   Piece {} -> True

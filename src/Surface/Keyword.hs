@@ -33,7 +33,7 @@ statements =
 softStatements :: [Text]
 softStatements =
   ["pocket", "rest", "face", "units", "work", "program", "safe", "stock", "avoid"]
-    <> ["stop", "optional", "dwell"]
+    <> ["contours", "stop", "optional", "dwell"]
     <> HoleForm.words'
 
 -- | The keywords that begin a repetition or a choice, either of statements or of items of a

@@ -120,6 +120,10 @@ statement comments indent (Located _ s) = case s of
       indent
       (Text ("contour " <> name <> " " <> closureName closure))
       (concatMap (item comments (indent + 2)) items)
+  Drawn outlines (Located _ (Name name)) part ->
+    plain (spaced (Text (drawnWord outlines <> " " <> name) : drawingPart comments part))
+  Table (Located _ (Name name)) (LinesFromDrawing part) ->
+    plain (spaced (Text ("table " <> name) : drawingPart comments part))
   Table (Located _ (Name name)) (LinesFromFile (Located _ file)) ->
     plain (Text ("table " <> name <> " from " <> quoted file))
   Table (Located _ (Name name)) (WrittenLines ls) ->
@@ -394,6 +398,24 @@ sideName side = case side of
   LeftSide -> "left"
   RightSide -> "right"
   On -> "on"
+
+drawnWord :: DrawnOutlines -> Text
+drawnWord outlines = case outlines of
+  OneOutline -> "contour"
+  AllOutlines -> "contours"
+
+-- | A part of a drawing, from the word @from@ on.
+drawingPart :: CommentPositions -> DrawingPart -> [Doc]
+drawingPart comments (DrawingPart (Located _ file) chosen unit within) =
+  [Text ("from " <> quoted file)]
+    <> [ Text $ case choice of
+           OnLayer name -> "layer " <> quoted name
+           WithIdentifier name -> "id " <> quoted name
+           WithClass name -> "class " <> quoted name
+         | Just (Located _ choice) <- [chosen]
+       ]
+    <> [Text (if u == Inches then "unit in" else "unit mm") | Just (Located _ u) <- [unit]]
+    <> concat [[Text "within", PrintExpression.value comments e] | Just e <- [within]]
 
 senseName :: Sense -> Text
 senseName sense = case sense of

@@ -132,6 +132,7 @@ statementForms =
     ("let", "let a = 5 mm, or for a function let f(x) = 2 * x"),
     ("param", "param a = 5 mm"),
     ("contour", "contour edge closed { … }, or open instead of closed"),
+    ("contours", "contours parts from \"plate.dxf\" layer \"CUT\""),
     ( "table",
       "table points { … }, with a line of names such as x y, and below it a row for each point"
     ),

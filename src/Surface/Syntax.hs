@@ -36,6 +36,9 @@ module Surface.Syntax
     Item_ (..),
     Sense (..),
     Lines (..),
+    DrawnOutlines (..),
+    DrawingPart (..),
+    DrawingSelection (..),
     TableLine,
     TableLine_ (..),
     Cell (..),
@@ -123,6 +126,9 @@ data Statement_
     Param (Located Name) Expr
   | -- | @contour outline closed { … }@
     Contour (Located Name) (Located Closure) [Item]
+  | -- | @contour edge from "stand.dxf" layer "CUT"@: one outline of a drawing, and
+    -- @contours parts from "stand.dxf" layer "CUT"@: all of them, as a region
+    Drawn DrawnOutlines (Located Name) DrawingPart
   | -- | @table profile { x y … }@ and @table profile from "profile.csv"@
     Table (Located Name) Lines
   | -- | @curve skin = spline(profile)@
@@ -324,6 +330,38 @@ data Lines
   = WrittenLines [TableLine]
   | -- | the name of a file of comma-separated values
     LinesFromFile (Located Text)
+  | -- | the circles of a drawing
+    LinesFromDrawing DrawingPart
+  deriving stock (Eq, Show)
+
+-- | The outlines of a drawing that a statement takes.
+data DrawnOutlines
+  = -- | the only one
+    OneOutline
+  | -- | all of them; the regions inside of an even number of others are filled
+    AllOutlines
+  deriving stock (Eq, Show)
+
+-- | A part of a drawing: @"stand.dxf" layer "CUT" unit mm within 0.01@.
+data DrawingPart = DrawingPart
+  { drawingFile :: Located Text,
+    -- | absent if the whole drawing is meant
+    selection :: Maybe (Located DrawingSelection),
+    -- | the unit of the drawing; absent if its file states it
+    drawingUnit :: Maybe (Located LengthUnit),
+    -- | the largest distance between two ends that are joined, as a number
+    joinedWithin :: Maybe Expr
+  }
+  deriving stock (Eq, Show)
+
+-- | The choice of entities of a drawing.
+data DrawingSelection
+  = -- | those of a layer
+    OnLayer Text
+  | -- | the element of an SVG file with an identifier, and those inside of it
+    WithIdentifier Text
+  | -- | those with a class
+    WithClass Text
   deriving stock (Eq, Show)
 
 -- | A line of a table as the program writes it, with its region.

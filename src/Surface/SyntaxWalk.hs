@@ -55,6 +55,7 @@ definedName s = case s of
   LetFunction n _ _ -> Just n
   Param n _ -> Just n
   Contour n _ _ -> Just n
+  Drawn _ n _ -> Just n
   Table n _ -> Just n
   Curve n _ -> Just n
   Piece n _ _ _ _ -> Just n
@@ -99,8 +100,10 @@ ofStatement (Located _ s) = case s of
   LetFunction _ _ e -> [e]
   Param _ e -> [e]
   Contour _ _ items -> concatMap ofItem items
+  Drawn _ _ part -> maybeToList (joinedWithin part)
   Table _ (WrittenLines ls) -> concatMap ofLine ls
   Table _ (LinesFromFile _) -> []
+  Table _ (LinesFromDrawing part) -> maybeToList (joinedWithin part)
   Curve _ e -> [e]
   Piece _ e ciphers _ joggles -> e : concatMap ofCipher ciphers <> concatMap ofJoggle joggles
   Assert e within -> e : maybeToList within

@@ -1,0 +1,23 @@
+-- | Tolerances of the outlines of drawings.
+module Drawing.OutlineTolerance
+  ( joining,
+    same,
+    rounding,
+  )
+where
+
+import Base.Quantity (Mm (..))
+
+-- | The largest distance between two ends that are joined, in mm, unless a program states another
+-- one. Drawing programs write six decimals or more; hand-made ends are farther apart.
+joining :: Mm
+joining = Mm 0.001
+
+-- | Distance in mm below which two positions of a drawing count as the same. Numbers with six
+-- decimals are rounded by less.
+same :: Mm
+same = Mm 1e-6
+
+-- | Distance in mm below which two positions differ by the rounding of doubles only.
+rounding :: Mm
+rounding = Mm 1e-9

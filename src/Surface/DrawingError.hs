@@ -1,0 +1,151 @@
+-- | Mistakes in drawings that a program names, and their reports. Their places are in the text of
+-- the program or in the file of the drawing.
+module Surface.DrawingError
+  ( DrawingMistake (..),
+    GapPlace (..),
+    toReport,
+  )
+where
+
+import Base.Decimal qualified as Decimal
+import Base.Quantity (LengthUnit (Millimetres), Mm (..))
+import Base.Region (Region)
+import Data.List.NonEmpty (NonEmpty (..))
+import Data.List.NonEmpty qualified as NonEmpty
+import Data.Text (Text)
+import Data.Text qualified as Text
+import Geometry.Vec (Point)
+import Geometry.Vec qualified as Vec
+import Report.Report (Label (..), Report (..), ReportPlace (..), Severity (..), at, quote, report)
+import Report.Report qualified as Report
+
+-- | A mistake in a drawing, or a remark about it.
+data DrawingMistake
+  = -- | a file that is no drawing, by its name
+    NotADrawing Region Text
+  | -- | a drawing that is damaged, or that has what the reader refuses: the title, the message and
+    -- the hints of the report
+    BadDrawing Region Text [Text] [Text]
+  | -- | a distance for joined ends that is no length, or not above 0
+    BadDistance Region
+  | -- | a selection without entities: the region of the selection or of the file, the words for
+    -- it, the names that exist
+    NothingSelected Region Text [Text]
+  | -- | entities without an outline among them: the region of the file
+    NoOutline Region
+  | -- | several outlines where one is asked for: the region of the name of the file, the count, the
+    -- first entities
+    SeveralOutlines Region Int (NonEmpty Region)
+  | -- | an outline that is open where all have to be closed: the entity at one end, the places of
+    -- both ends
+    OpenOutline Region Point Point
+  | -- | more than two ends at a point: the entities
+    BranchingOutline Point (NonEmpty Region)
+  | -- | two entities along each other: the entities, the length that they have in common, its
+    -- middle
+    OverlappingEntities Region Region Mm Point
+  | -- | no circle for a table: the region of the file
+    NoCircle Region
+  | -- | gaps between ends that were closed: the region of the file, the places
+    ClosedGaps Region (NonEmpty GapPlace)
+  | -- | an entity that is left out: its place, what it is, and the reason
+    LeftOut Region Text
+  | -- | an entity that is left out because it coincides with another one
+    SameEntity Region Region
+  deriving stock (Eq, Ord, Show)
+
+-- | A gap that was closed: the entities before and after it, its width and its place.
+data GapPlace = GapPlace Region Region Mm Point
+  deriving stock (Eq, Ord, Show)
+
+-- | The report of a mistake, or of a remark.
+toReport :: DrawingMistake -> Report
+toReport fault = case fault of
+  NotADrawing region name ->
+    (at region "E0123" (quote name <> " is no drawing by its name"))
+      { hints = ["The name of a drawing ends in .dxf or .svg."]
+      }
+  BadDrawing region title message hints -> (at region "E0123" title) {message, hints}
+  BadDistance region ->
+    (at region "E0123" "ends are joined within a length above 0")
+      { hints = ["Write: within 0.01"]
+      }
+  NothingSelected region what names ->
+    (at region "E0124" ("the drawing has no " <> what))
+      { hints = listed names
+      }
+  NoOutline region ->
+    (at region "E0124" "this part of the drawing has no outline")
+      { hints = ["Lines, arcs, circles, ellipses, splines and polylines make outlines."]
+      }
+  NoCircle region ->
+    (at region "E0124" "this part of the drawing has neither circles nor points")
+      { hints = ["A table from a drawing has a row for each circle and for each point."]
+      }
+  SeveralOutlines region count firsts ->
+    (at region "E0125" ("these are " <> Decimal.whole count <> " outlines, not one"))
+      { others = [Label r "an outline begins here" | r <- NonEmpty.take 4 firsts],
+        hints = ["Take all of them with contours, or only one by its layer, id or class."]
+      }
+  OpenOutline region p q ->
+    (at region "E0125" "this outline is not closed")
+      { message = ["It leads from " <> place p <> " to " <> place q <> "."],
+        hints =
+          [ "Close it in the drawing. If its ends nearly meet, state the gap after the file, as in \
+            \within 0.1."
+          ]
+      }
+  BranchingOutline p (first :| more) ->
+    (at first "E0125" "more than two ends meet here")
+      { others = [Label r "so does this one" | r <- more],
+        message = ["They meet at " <> place p <> "."],
+        hints = ["Remove what does not belong to the outline, or put it on another layer."]
+      }
+  OverlappingEntities a b long p ->
+    (at b "E0125" "this runs along another entity")
+      { others = [Label a "the other one"],
+        message =
+          [ "They have " <> Decimal.inUnit Millimetres long <> " in common, about " <> place p
+              <> "."
+          ],
+        hints = ["Remove one of the two from the drawing, or shorten it."]
+      }
+  ClosedGaps region gaps ->
+    (warning region "W0101" (gapsTitle (NonEmpty.length gaps) <> widest gaps))
+      { message = map gapText (NonEmpty.take 8 gaps) <> andMore (NonEmpty.length gaps - 8),
+        others = [Label r "before a gap" | GapPlace r _ _ _ <- NonEmpty.take 4 gaps]
+      }
+  LeftOut region text -> warning region "W0102" text
+  SameEntity region original ->
+    (warning region "W0103" "this coincides with another entity and is left out")
+      { others = [Label original "the other one"]
+      }
+  where
+    place = Vec.toText Millimetres 4
+    gapText (GapPlace _ _ (Mm d) p) =
+      "At " <> place p <> " it was " <> Decimal.short 6 d <> " mm wide."
+    andMore n = ["There are " <> Decimal.whole n <> " more." | n > 0]
+
+-- | The title for gaps that were closed.
+gapsTitle :: Int -> Text
+gapsTitle count
+  | count == 1 = "a gap between two ends was closed"
+  | otherwise = Decimal.whole count <> " gaps between ends were closed"
+
+-- | The largest width of some gaps.
+widest :: NonEmpty GapPlace -> Text
+widest gaps = ", at most " <> Decimal.short 6 (maximum widths) <> " mm wide"
+  where
+    widths = [d | GapPlace _ _ (Mm d) _ <- NonEmpty.toList gaps]
+
+warning :: Region -> Report.ReportCode -> Text -> Report
+warning region code = report Warning code (InSource region)
+
+-- | The hint that lists the names that exist.
+listed :: [Text] -> [Text]
+listed names
+  | null names = []
+  | otherwise =
+    [ "There are: " <> Text.intercalate ", " (map quote (take 12 names))
+        <> (if length names > 12 then ", and more." else ".")
+    ]

@@ -1,0 +1,41 @@
+{-# LANGUAGE RankNTypes #-}
+
+-- | The rules of the grammar for parts of drawings. They take the rule for numbers from
+-- "Surface.Grammar".
+module Surface.DrawingGrammar
+  ( drawingPart,
+    fromFile,
+  )
+where
+
+import Base.Quantity (LengthUnit (..))
+import Base.Region (Located (..))
+import Data.Maybe (isNothing)
+import Drawing.FileFormat (formatOf)
+import Surface.Combinator
+import Surface.Syntax
+import Surface.TokenGrammar (text')
+import Text.Megaparsec ((<?>), (<|>))
+import Text.Megaparsec qualified as Parsec
+
+-- | A part of a drawing: the name of its file, and what is chosen of it.
+drawingPart :: Parser Expr -> Parser DrawingPart
+drawingPart number = do
+  file <- text' <?> "the name of a file in quotation marks"
+  chosen <- Parsec.optional (onThisLine (located choice))
+  unit <- Parsec.optional (onThisLine (keyword "unit" *> located lengthUnit))
+  DrawingPart file chosen unit <$> Parsec.optional (onThisLine (keyword "within" *> number))
+  where
+    choice =
+      (OnLayer <$> (keyword "layer" *> named))
+        <|> (WithIdentifier <$> (keyword "id" *> named))
+        <|> (WithClass <$> (keyword "class" *> named))
+    named = value <$> (text' <?> "a name in quotation marks")
+    lengthUnit = (Millimetres <$ keyword "mm") <|> (Inches <$ keyword "in")
+
+-- | The lines of a table from a file: a drawing, or comma-separated values.
+fromFile :: DrawingPart -> Lines
+fromFile part@(DrawingPart file chosen unit within)
+  | isNothing chosen && isNothing unit && isNothing within && isNothing (formatOf (value file)) =
+    LinesFromFile file
+  | otherwise = LinesFromDrawing part

@@ -1,0 +1,120 @@
+-- | Items of a contour from an outline of a drawing.
+--
+-- A line needs only its two ends, which are elements. Between the ends of an arc stands its circle,
+-- and between the ends of a curve the curve.
+module Surface.DrawnContour
+  ( items,
+    closure,
+    point,
+    number,
+  )
+where
+
+import Base.Decimal qualified as Decimal
+import Base.Name (Name (..))
+import Base.Quantity (Mm (..), Rad (..))
+import Base.Region (Located (..), Region)
+import Data.Foldable (toList)
+import Data.List.NonEmpty (NonEmpty (..))
+import Data.List.NonEmpty qualified as NonEmpty
+import Data.Text (Text)
+import Drawing.Drawing (Ellipse (..), Piece (..), Spline (..))
+import Drawing.Outline (DrawnPart (..), Outline (..))
+import Drawing.PathPart qualified as PathPart
+import Geometry.Polyarc (Ends (..))
+import Geometry.Segment (Segment (..))
+import Geometry.Segment qualified as Segment
+import Geometry.Vec (Point)
+import Geometry.Vec qualified as Vec
+import Surface.Syntax (Argument (Given), Closure, Expr, Expr_ (..), Item, Item_ (..), Numeral (..))
+import Surface.Syntax qualified as Surface
+import Surface.Token (Unit (..))
+
+-- | The items of the contour of an outline, each with its piece. @regionOf@ gives the region of a
+-- piece. Lengths have the unit @unit@; the numbers are in mm.
+items :: (DrawnPart -> Region) -> Maybe Unit -> Outline -> [(DrawnPart, Item)]
+items regionOf unit outline = case NonEmpty.toList (pieces outline) of
+  [p] | ends outline == Closed -> [(p, element p e) | e <- wholeElement (at p) unit (piece p)]
+  list ->
+    concatMap ofPiece list
+      <> [ (p, element p (Nothing, point (at p) unit (PathPart.end (piece p))))
+           | ends outline == Open,
+             p <- take 1 (reverse list)
+         ]
+  where
+    at = regionOf
+    element p (sense, e) = Located (at p) (Element (Located (at p) <$> sense) e [] Nothing)
+    ofPiece p =
+      (p, element p (Nothing, point (at p) unit (PathPart.start (piece p)))) :
+        [(p, element p e) | e <- betweenEnds (at p) unit (piece p)]
+
+-- | The closure of the contour of an outline.
+closure :: Outline -> Closure
+closure outline = case ends outline of
+  Closed -> Surface.Closed
+  Open -> Surface.Open
+
+-- | The elements of a piece that is closed by itself.
+wholeElement :: Region -> Maybe Unit -> Piece -> [(Maybe Surface.Sense, Expr)]
+wholeElement at unit piece = case piece of
+  EllipseArc Ellipse {middle, major, minor, direction = Rad a} _ _ ->
+    [ ( Nothing,
+        call
+          at
+          "ellipse"
+          ([point at unit middle, long major, long minor] <> [radians at a | a /= 0])
+      )
+    ]
+  _ -> betweenEnds at unit piece
+  where
+    long (Mm v) = number at unit v
+
+-- | The element between the ends of a piece; none for a line.
+betweenEnds :: Region -> Maybe Unit -> Piece -> [(Maybe Surface.Sense, Expr)]
+betweenEnds at unit piece = case piece of
+  Plain (Straight _ _) -> []
+  Plain (Arc begin _ centre (Rad sweep)) ->
+    let Mm r = Segment.radius centre begin
+        sense = if sweep > 0 then Surface.CounterClockwise else Surface.Clockwise
+     in [(Just sense, call at "circle" [point at unit centre, number at unit r])]
+  _ -> [(Nothing, curveOf at unit piece)]
+
+-- | The call that makes the curve of a piece.
+curveOf :: Region -> Maybe Unit -> Piece -> Expr
+curveOf at unit piece = case piece of
+  Plain s -> call at "line" [point at unit (Segment.start s), point at unit (Segment.end s)]
+  EllipseArc Ellipse {middle, major = Mm a, minor = Mm b, direction = Rad turned} from to ->
+    call at "ellipse" $
+      [point at unit middle, number at unit a, number at unit b]
+        <> map (radians at) [turned, from, to]
+  Bezier points weights' -> call at "bezier" (listOf points : map plainList (toList weights'))
+  BSpline Spline {degree, knots, controls, weights} ->
+    call at "bspline" $
+      [ number at Nothing (fromIntegral degree),
+        listOf controls,
+        Located at (List (map (number at Nothing) knots))
+      ]
+        <> map plainList (toList weights)
+  where
+    listOf = Located at . List . map (point at unit) . NonEmpty.toList
+    plainList = Located at . List . map (number at Nothing) . NonEmpty.toList
+
+-- | A point, from a position in mm.
+point :: Region -> Maybe Unit -> Point -> Expr
+point at unit p = Located at (Pair (number at unit (Vec.x p)) (number at unit (Vec.y p)))
+
+-- | A number that is read as exactly the same value.
+number :: Region -> Maybe Unit -> Double -> Expr
+number at unit v
+  | v < 0 = Located at (Negate (Located at (literal (negate v))))
+  | otherwise = Located at (literal v)
+  where
+    literal x = Literal (Numeral (Decimal.exact x) x) unit
+
+radians :: Region -> Double -> Expr
+radians at = number at (Just Radian)
+
+call :: Region -> Text -> [Expr] -> Expr
+call at function arguments = case map Given arguments of
+  first : more -> Located at (Call (Located at (Name function)) (first :| more))
+  [] -> Located at (Variable (Name function))

@@ -1,0 +1,323 @@
+-- | Statements that a drawing gives: contours from its outlines, and lines of a table from its
+-- circles.
+module Surface.FromDrawing
+  ( DrawingText (..),
+    fromBytes,
+    distance,
+    chosenFrom,
+    Converted (..),
+    outlinesIn,
+    contours,
+    circleOf,
+    tableLines,
+  )
+where
+
+import Base.Decimal qualified as Decimal
+import Base.Name (Name (..))
+import Base.Quantity (LengthUnit (..), Mm (..), millimetresIn, times)
+import Base.Region (Located (..), Region (Region))
+import Base.Region qualified as Region
+import Data.ByteString (ByteString)
+import Data.Char (isSpace)
+import Data.List.NonEmpty (NonEmpty (..))
+import Data.List.NonEmpty qualified as NonEmpty
+import Data.Map.Strict qualified as Map
+import Data.Maybe (mapMaybe, maybeToList)
+import Data.Set qualified as Set
+import Data.Text (Text)
+import Data.Text qualified as Text
+import Data.Vector qualified as Vector
+import Drawing.Drawing (Drawing (..), Entity, Piece (..), Remark (..), RemarkKind (..), Shape (..))
+import Drawing.Drawing qualified as Drawing
+import Drawing.Dxf qualified as Dxf
+import Drawing.Error qualified as FileError
+import Drawing.FileFormat (FileFormat (..), formatOf)
+import Drawing.Nesting qualified as Nesting
+import Drawing.Outline (ClosedGap (..), DrawnPart (..), JoinFault (..), Joining (..), Outline (..))
+import Drawing.Outline qualified as Outline
+import Drawing.OutlineTolerance qualified as Tolerance
+import Drawing.PathPart qualified as PathPart
+import Geometry.Carrier (Circle (Circle))
+import Geometry.Polyarc qualified as Polyarc
+import Geometry.Segment (Segment (Arc))
+import Geometry.Segment qualified as Segment
+import Geometry.Vec qualified as Vec
+import Report.Report (quote)
+import Surface.DrawingError (DrawingMistake (..), GapPlace (..))
+import Surface.DrawnContour qualified as DrawnContour
+import Surface.Syntax
+import Surface.Token (Unit (..))
+
+-- | A drawing with the places of its lines in the texts of the program.
+data DrawingText = DrawingText
+  { drawing :: Drawing,
+    -- | region of a line of its file, by the number of the line from 1
+    regionOfLine :: Int -> Region
+  }
+
+-- | Result of a part of a drawing, with the mistakes and the remarks.
+data Converted a = Converted {mistakes :: [DrawingMistake], notes :: [DrawingMistake], given :: a}
+
+instance Functor Converted where
+  fmap f c = c {given = f (given c)}
+
+-- | The drawing of a file: its mistakes, the remarks about it, and the drawing if it has no
+-- mistake. @at@ is the region of the name of the file in the program, @stated@ the unit that the
+-- program gives the drawing. The text @shown@ of the file begins at the offset @begin@.
+fromBytes ::
+  Located Text ->
+  Maybe LengthUnit ->
+  (Int, Text) ->
+  ByteString ->
+  ([DrawingMistake], [DrawingMistake], Maybe DrawingText)
+fromBytes (Located at name) stated (begin, shown) content = case formatOf name of
+  Nothing -> ([NotADrawing at name], [], Nothing)
+  Just Dxf -> made (Dxf.fromDxf stated content)
+  Just Svg -> ([NotADrawing at name], [], Nothing)
+  where
+    made outcome = case outcome of
+      Left faults -> (map bad (NonEmpty.toList faults), [], Nothing)
+      Right drawing ->
+        ([], remarkFaults regionOfLine (remarks drawing), Just DrawingText {drawing, regionOfLine})
+    bad e =
+      BadDrawing
+        (regionOfLine (FileError.line e))
+        (FileError.title e)
+        [FileError.message e]
+        (FileError.hints e)
+    isEntity n =
+      formatOf name == Just Dxf
+        && fmap (Text.strip . snd) (lines' Vector.!? (n - 1)) == Just "0"
+    lines' = Vector.fromList (Region.numbered shown)
+    -- An entity of a DXF file begins with the line 0; its word is in the next line.
+    regionOfLine n = case if isEntity n then lines' Vector.!? n else lines' Vector.!? (n - 1) of
+      Just (offset, text) ->
+        let blank = Text.length (Text.takeWhile isSpace text)
+            from = begin + offset + blank
+         in Region from (from + Text.length (Text.strip text))
+      Nothing -> at
+
+-- | The remarks about a drawing: one for each kind of entity and reason, at the first such entity.
+remarkFaults :: (Int -> Region) -> [Remark] -> [DrawingMistake]
+remarkFaults regionOf list =
+  [ LeftOut (regionOf (minimum lines')) (remarkText kind (length lines'))
+    | (kind, lines') <- Map.toList byKind
+  ]
+  where
+    byKind = Map.fromListWith (<>) [(kind, [n]) | Remark n kind <- list]
+
+-- | The sentence of a remark for a count of entities.
+remarkText :: RemarkKind -> Int -> Text
+remarkText kind count = case kind of
+  NotUnderstood word -> left word
+  Unusable word why -> left word <> ": " <> why
+  NotInPlane word -> left word <> ": not parallel to the plane of the drawing"
+  ThroughPoints word -> left word <> ": given only by points, without control points"
+  Smoothed word -> counted word <> " read as the polyline that draws the smoothed one"
+  InPaperSpace word -> left word <> ": on a page for printing"
+  Invisible word -> left word <> ": invisible"
+  OnHiddenLayer word layer -> left word <> ": on the layer " <> quote layer <> ", which is off"
+  where
+    left word = counted word <> " left out"
+    counted word
+      | count == 1 = "one " <> word <> " is"
+      | otherwise = Decimal.whole count <> " times " <> word <> " are"
+
+-- | The largest distance of ends that are joined, from the number in the program; without one it is
+-- 'Tolerance.joining'. A number without a unit has the unit of the file.
+distance :: LengthUnit -> Maybe Expr -> Either DrawingMistake Mm
+distance unit given = case given of
+  Nothing -> Right Tolerance.joining
+  Just (Located at (Literal n u))
+    | amount n > 0, Just factor <- factorOf u -> Right (Mm (factor * amount n))
+    | otherwise -> Left (BadDistance at)
+  Just (Located at _) -> Left (BadDistance at)
+  where
+    factorOf u = case u of
+      Nothing -> Just (millimetresIn unit)
+      Just Millimetre -> Just 1
+      Just Centimetre -> Just 10
+      Just Metre -> Just 1000
+      Just Inch -> Just 25.4
+      _ -> Nothing
+
+-- | The entities that a selection takes. The place of a mistake is the region @file@ if nothing is
+-- selected.
+chosenFrom ::
+  Region -> Maybe (Located DrawingSelection) -> Drawing -> Either DrawingMistake [Entity]
+chosenFrom file selection Drawing {entities} = case selection of
+  Nothing
+    | null entities -> Left (NoOutline file)
+    | otherwise -> Right entities
+  Just (Located at choice) -> case filter (isIn choice) entities of
+    [] ->
+      let names = Set.toAscList (Set.fromList (concatMap (namesIn choice) entities))
+       in Left (NothingSelected at (wordsFor choice) names)
+    es -> Right es
+  where
+    isIn choice e = case choice of
+      -- The names of layers are the same in capital and small letters.
+      OnLayer name -> Text.toCaseFold name == Text.toCaseFold (Drawing.layer e)
+      WithIdentifier name -> name `elem` Drawing.identifiers e
+      WithClass name -> name `elem` Drawing.classes e
+    wordsFor choice = case choice of
+      OnLayer name -> "layer " <> quote name <> " with entities"
+      WithIdentifier name -> "element with the id " <> quote name
+      WithClass name -> "element of the class " <> quote name
+    namesIn choice e = case choice of
+      OnLayer _ -> [Drawing.layer e | not (Text.null (Drawing.layer e))]
+      WithIdentifier _ -> Drawing.identifiers e
+      WithClass _ -> Drawing.classes e
+
+-- Contours ----------------------------------------------------------------------------------------
+
+-- | The outlines of some entities, and of their points as circles without a radius. @file@ is the
+-- place of remarks.
+outlinesIn :: DrawingText -> Region -> Mm -> [Entity] -> Converted [Outline]
+outlinesIn text file tolerance chosen =
+  Converted
+    { mistakes = map (joinFault regionOf) (faults joining),
+      notes = remarksOf regionOf file joining,
+      given = outlines joining
+    }
+  where
+    joining = Outline.joined tolerance chosen
+    regionOf = regionOfLine text . Drawing.line
+
+-- | The statements in place of a contour, or of several, from some entities. @at@ is the region of
+-- the statement, @file@ that of the name of the file. Ends within @tolerance@ are joined.
+contours ::
+  DrawingText ->
+  Region ->
+  Region ->
+  DrawnOutlines ->
+  Located Name ->
+  (Mm, [Entity]) ->
+  Converted [Statement]
+contours text at file asked name (tolerance, chosen) = case asked of
+  OneOutline -> case outlines joining of
+    [one] -> result [] [contourOf name one]
+    [] -> result [NoOutline file] []
+    first : more ->
+      result [SeveralOutlines file (1 + length more) (fmap firstOf (first :| more))] []
+  AllOutlines -> case outlines joining of
+    [] -> result [NoOutline file] []
+    first : more -> case [o | o <- first : more, ends o == Polyarc.Open] of
+      [] -> result [] (asRegion at name contourOf (first : more))
+      open -> result (map openFault open) []
+  where
+    joining = Outline.joined tolerance chosen
+    result found made =
+      Converted
+        { mistakes = found <> map (joinFault regionOf) (faults joining),
+          notes = remarksOf regionOf file joining,
+          given = made
+        }
+    regionOf = regionOfLine text . Drawing.line
+    firstOf o = regionOf (entity (NonEmpty.head (pieces o)))
+    contourOf n o =
+      Located
+        at
+        ( Contour
+            n
+            (Located at (DrawnContour.closure o))
+            (map snd (DrawnContour.items (regionOf . entity) (Just Millimetre) o))
+        )
+    openFault o =
+      OpenOutline
+        (firstOf o)
+        (PathPart.start (piece (NonEmpty.head (pieces o))))
+        (PathPart.end (piece (NonEmpty.last (pieces o))))
+
+-- | The contours of some closed outlines, and the region that they bound: the value of the name. An
+-- outline within an odd count of others is a hole.
+asRegion ::
+  Region ->
+  Located Name ->
+  (Located Name -> Outline -> Statement) ->
+  [Outline] ->
+  [Statement]
+asRegion at name contourOf closed =
+  zipWith contourOf names closed
+    <> [Located at (LetValue name (foldl nested (call "region" []) levels))]
+  where
+    names = [partName name k | k <- [1 .. length closed]]
+    depths = Nesting.depths closed
+    levels = [(k, [n | (n, d) <- zip names depths, d == k]) | k <- [0 .. maximum depths]]
+    nested around (k, ns) = case k :: Int of
+      0 -> call "region" [listOf ns]
+      _
+        | odd k -> call "difference" [around, listOf ns]
+        | otherwise -> call "union" [Located at (List [around, call "region" [listOf ns]])]
+    listOf ns = Located at (List [Located at (Variable n) | Located _ n <- ns])
+    call function arguments = case map Given arguments of
+      first : more -> Located at (Call (Located at (Name function)) (first :| more))
+      [] -> Located at (List [])
+
+-- | The name of one of several outlines. With its blank, it is no name that a program can write.
+partName :: Located Name -> Int -> Located Name
+partName (Located at (Name name)) k = Located at (Name (name <> " " <> Decimal.whole k))
+
+-- | The mistake of a fault of the outlines.
+joinFault :: (Entity -> Region) -> JoinFault -> DrawingMistake
+joinFault regionOf fault = case fault of
+  Branch p es -> BranchingOutline p (fmap regionOf es)
+  Overlap a b long p -> OverlappingEntities (regionOf a) (regionOf b) long p
+
+-- | The remarks of a joining.
+remarksOf :: (Entity -> Region) -> Region -> Joining -> [DrawingMistake]
+remarksOf regionOf file joining =
+  maybeToList (ClosedGaps file <$> NonEmpty.nonEmpty (map gapPlace (gaps joining)))
+    <> [SameEntity (regionOf e) (regionOf original) | (e, original) <- repeated joining]
+  where
+    gapPlace g = GapPlace (regionOf (before g)) (regionOf (after g)) (width g) (joint g)
+
+-- Tables ------------------------------------------------------------------------------------------
+
+-- | The lines of a table with a row for each circle and each point among some entities: the
+-- coordinates of the centre, and the diameter, which is 0 for a point. @file@ is the region of the
+-- name of the file.
+tableLines :: DrawingText -> Region -> [Entity] -> Converted [TableLine]
+tableLines text file chosen =
+  Converted
+    { mistakes = [NoCircle file | null circles],
+      notes =
+        remarksOf regionOf file joining
+          <> [ LeftOut
+                 (regionOf (entity p))
+                 (Drawing.word (entity p) <> " is no circle, and is left out")
+               | o <- outlines joining,
+                 null (circleOf o),
+                 p <- take 1 (NonEmpty.toList (pieces o))
+             ],
+      given =
+        if null circles then [] else header : [Located at (row at c r) | (at, c, r) <- circles]
+    }
+  where
+    regionOf = regionOfLine text . Drawing.line
+    joining = Outline.joined Tolerance.joining chosen
+    dots = [(regionOf e, p, Mm 0) | e <- chosen, Dot p <- [Drawing.shape e]]
+    circles = dots <> mapMaybe placed (outlines joining)
+    placed o = do
+      Circle c r <- circleOf o
+      Just (regionOf (entity (NonEmpty.head (pieces o))), c, r)
+    header = Located file (Header (heading "x" :| [heading "y", heading "diameter"]))
+    heading word = Heading (Located file (Name word)) Nothing
+    row at c r =
+      let Mm d = times 2 r
+          cell = ValueCell . DrawnContour.number at (Just Millimetre)
+       in Entries (fmap cell (Vec.x c :| [Vec.y c, d]))
+
+-- | The circle of a closed outline that consists of arcs of one circle.
+circleOf :: Outline -> Maybe Circle
+circleOf o = case traverse (arcOf . piece) (pieces o) of
+  Just ((c, r) :| more)
+    | ends o == Polyarc.Closed && all (\(d, s) -> Vec.isNear c d && isEqual r s) more ->
+      Just (Circle c r)
+  _ -> Nothing
+  where
+    arcOf p = case p of
+      Plain (Arc begin _ centre _) -> Just (centre, Segment.radius centre begin)
+      _ -> Nothing
+    isEqual (Mm a) (Mm b) = let Mm most = Tolerance.same in abs (a - b) <= most
