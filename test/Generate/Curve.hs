@@ -249,7 +249,7 @@ bspline = do
 controlPoints :: Int -> Gen [Point]
 controlPoints n = do
   begin <- choose (-3.1, 3.1)
-  turns <- vectorOf n (choose (-1.5 / fromIntegral n, 1.5 / fromIntegral n))
+  turns <- vectorOf (n - 1) (choose (-1.5 / fromIntegral n, 1.5 / fromIntegral n))
   Table _ points <- fromTurns begin turns
   pure points
 

@@ -14,6 +14,7 @@ module Geometry.Curve.KnotVector
 where
 
 import Data.List (find)
+import Data.Maybe (listToMaybe)
 import Data.Vector.Unboxed (Vector)
 import Data.Vector.Unboxed qualified as Unboxed
 import Geometry.Numeric.Bernstein (Bernstein)
@@ -57,13 +58,14 @@ knotVector p count list
     first = equalised Unboxed.! p
     final = equalised Unboxed.! count
     repeated =
-      find
-        (\(RepeatedKnot _ _ times most) -> times > most)
-        [ RepeatedKnot (i + 1) u (Unboxed.length (Unboxed.filter (== u) equalised)) most
-          | i <- runs,
+      listToMaybe
+        [ RepeatedKnot (i + 1) u times most
+          | (i, next) <- zip runs (drop 1 runs <> [needed]),
             let u = equalised Unboxed.! i,
             u >= first && u <= final,
-            let most = if u > first && u < final then p else p + 1
+            let times = next - i,
+            let most = if u > first && u < final then p else p + 1,
+            times > most
         ]
     runs =
       [i | i <- [0 .. needed - 1], i == 0 || equalised Unboxed.! i > equalised Unboxed.! (i - 1)]
@@ -74,7 +76,7 @@ knotVector p count list
 bezierSpans :: KnotVector -> Vector Double -> [Bernstein]
 bezierSpans vector@KnotVector {degree = p, knots} controls =
   [ Unboxed.generate (p + 1) (blossom vector controls j)
-    | j <- [p .. Unboxed.length controls - 1],
+    | j <- [p .. Unboxed.length knots - p - 2],
       knots Unboxed.! j < knots Unboxed.! (j + 1)
   ]
 

@@ -24,7 +24,7 @@ import Base.Quantity (Mm (..), Rad (..), plus, times)
 import Data.List (minimumBy)
 import Data.Maybe (fromMaybe)
 import Data.Ord (comparing)
-import Geometry.Curve.BasisCurve (CurvePosition)
+import Geometry.Curve.BasisCurve (CurvePosition (approach))
 import Geometry.Curve.BasisCurve qualified as BasisCurve
 import Geometry.Curve.ShiftedCurve (Curve (..))
 import Geometry.Curve.ShiftedCurve qualified as ShiftedCurve
@@ -82,7 +82,14 @@ nearest p curve =
         (stretches curve)
     sample stretch u =
       let jet = ShiftedCurve.expansionAt 1 curve (positionWithin stretch curve u)
-       in (u, TaylorExpansion.position jet, TaylorExpansion.velocity jet)
+       in (u, TaylorExpansion.position jet, forwards stretch u jet)
+    -- The velocity; where it is 0, as at the end of a span with two equal control points, a vector
+    -- of the same direction.
+    forwards stretch u jet
+      | Mm (Vec.norm v) > Tolerance.stationary = v
+      | otherwise = unitTangent (approach (positionWithin stretch curve u)) curve u
+      where
+        v = TaylorExpansion.velocity jet
     best = minimum [Vec.distance p q | (_, found) <- sampled, (_, q, _) <- found]
     -- Finds each minimum of the distance from @p@ that two neighbouring samples enclose. Skips a
     -- minimum that is certainly larger than the distance of the best sample.
@@ -100,7 +107,10 @@ nearest p curve =
           min (Vec.distance p q) (Vec.distance p r) <= plus best (times 2 (Vec.distance q r)),
           let u = RootFinding.zero (distanceSlope stretch) a b
       ]
-    distanceSlope stretch u = (Vec.dot out v, Vec.dot v v + Vec.dot out acceleration)
+    distanceSlope stretch u
+      | Mm (Vec.norm v) > Tolerance.stationary =
+        (Vec.dot out v, Vec.dot v v + Vec.dot out acceleration)
+      | otherwise = (Vec.dot out (forwards stretch u jet), 0)
       where
         jet@(V2 x y) = ShiftedCurve.expansionAt 2 curve (positionWithin stretch curve u)
         out = Vec.to p (TaylorExpansion.position jet)

@@ -44,7 +44,7 @@ spec =
       faultOf 2 4 [0, 0, 0, 1, 0.5, 1, 1] `shouldBe` Just (FallingKnot 5)
       faultOf 2 2 [0, 0, 0, 1, 1] `shouldBe` Just (FewControlPoints 2)
       faultOf 2 4 [0, 0, 0, 0, 1, 1, 1] `shouldBe` Just (RepeatedKnot 1 0 4 3)
-      faultOf 2 5 [0, 0, 0, 1, 1, 1, 2, 2] `shouldBe` Just (RepeatedKnot 4 1 3 2)
+      faultOf 2 6 [0, 0, 0, 1, 1, 1, 2, 2, 2] `shouldBe` Just (RepeatedKnot 4 1 3 2)
       faultOf 3 4 [0, 1, 2, 3, 3, 4, 5, 6] `shouldBe` Just (NoInterval 4 5)
       faultOf 2 4 [0, 0, 0, 1, 2, 2, 2] `shouldBe` Nothing
   where
