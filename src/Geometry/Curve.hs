@@ -1,9 +1,9 @@
 -- | Planar curves given by point tables, span shapes or segments, and the shifts of such curves.
 --
 -- A span is a part of a curve on which one formula gives the points: an arc, a pair of cubic
--- polynomials of the parameter, one for x and one for y, or a Bézier curve of another kind. A curve maps a parameter, from 0 to the
--- count of its spans, to a point. The rows of a curve are the points of the table from which it was
--- made; each row has a parameter.
+-- polynomials of the parameter, one for x and one for y, or a Bézier curve of another kind. A curve
+-- maps a parameter, from 0 to the count of its spans, to a point. The rows of a curve are the
+-- points of the table from which it was made; each row has a parameter.
 --
 -- A shift adds a layer: it moves every point of the curve below along its normal, by a distance
 -- that is a function of the parameter. Points, directions and curvatures are computed by power

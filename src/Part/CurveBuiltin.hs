@@ -40,7 +40,7 @@ import Part.ConstructionError (ConstructionFault (..), NoAnswer (..))
 import Part.ContourError (ContourFault (NoLength))
 import Part.Curve (Fitting (..), PartCurve (..), PartTable (..))
 import Part.Curve qualified as Curve
-import Part.CurveError (ControlFault (..), CurveMistake (..), ListFault (..), Listing (..))
+import Part.CurveError (ControlPointFault (..), CurveMistake (..), ListFault (..), Listing (..))
 import Part.Error (ValueFact (..))
 import Part.Evaluation (Eval)
 import Part.Evaluation qualified as Evaluation
@@ -178,7 +178,7 @@ controlled region table found = case found of
   Left (Exact.NoLength _) -> wrongControls region OnePoint
   Left fault -> faulty region table fault
 
-wrongControls :: Region -> ControlFault -> Eval a
+wrongControls :: Region -> ControlPointFault -> Eval a
 wrongControls region = Evaluation.mistake . InCurve . BadControls region
 
 -- | Fails if the tolerance @d@ of a curve, in mm, is not above 0 or is larger than

@@ -11,7 +11,7 @@ module Part.CurveError
   ( CurveMistake (..),
     Listing (..),
     ListFault (..),
-    ControlFault (..),
+    ControlPointFault (..),
     toReport,
   )
 where
@@ -36,7 +36,7 @@ data CurveMistake
     -- reason
     BadPoints Region Listing (Maybe Region) ListFault
   | -- | numbers that describe no Bézier curve or B-spline: the reason
-    BadControls Region ControlFault
+    BadControls Region ControlPointFault
   | -- | a row or a point that does not exist: the number of it, and the number of rows or points
     NoSuchRow Region Listing Int Int
   | -- | a shift by at least the radius of curvature, at which the curve would turn back: the point,
@@ -99,7 +99,7 @@ data ListFault
   deriving stock (Eq, Show)
 
 -- | The reason why control points, knots and weights describe no curve.
-data ControlFault
+data ControlPointFault
   = -- | more control points than a Bézier curve can have: the number of them, and the largest number
     ManyControls Int Int
   | -- | wrong weights for this number of control points
@@ -337,7 +337,7 @@ listHint noun fault = case fault of
 
 -- | The title and the hint of a report on control points, knots or weights. Knots and weights are
 -- counted from 1.
-controlTexts :: ControlFault -> (Text, Text)
+controlTexts :: ControlPointFault -> (Text, Text)
 controlTexts fault = case fault of
   ManyControls count most ->
     ( "a Bézier curve has at most " <> Decimal.whole most <> " control points, there are "

@@ -1,6 +1,6 @@
--- | Cubic spans of a curve: the curve's own spans, or a cubic approximation of a shifted curve or of
--- one with other Bézier curves. Cubics have an error bound in closed form when arcs are fitted to
--- them. This fit needs a speed above 0 at the ends of all spans.
+-- | Cubic spans of a curve: the curve's own spans, or a cubic approximation of a shifted curve or
+-- of one with other Bézier curves. Cubics have an error bound in closed form when arcs are fitted
+-- to them. This fit needs a speed above 0 at the ends of all spans.
 --
 -- The approximation consists of Hermite cubics: each has the points and the derivatives of the
 -- curve at both ends of an interval. Let t be the fraction of the interval, from 0 to 1. Where the

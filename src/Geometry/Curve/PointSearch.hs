@@ -30,7 +30,7 @@ import Geometry.Curve.ShiftedCurve (Curve (..))
 import Geometry.Curve.ShiftedCurve qualified as ShiftedCurve
 import Geometry.Numeric.PowerSeries qualified as PowerSeries
 import Geometry.Numeric.RootFinding qualified as RootFinding
-import Geometry.Numeric.TaylorExpansion (Approach (..))
+import Geometry.Numeric.TaylorExpansion (Approach (..), TaylorExpansion)
 import Geometry.Numeric.TaylorExpansion qualified as TaylorExpansion
 import Geometry.Tolerance qualified as Tolerance
 import Geometry.Vec (Point, Vec)
@@ -82,14 +82,7 @@ nearest p curve =
         (stretches curve)
     sample stretch u =
       let jet = ShiftedCurve.expansionAt 1 curve (positionWithin stretch curve u)
-       in (u, TaylorExpansion.position jet, forwards stretch u jet)
-    -- The velocity; where it is 0, as at the end of a span with two equal control points, a vector
-    -- of the same direction.
-    forwards stretch u jet
-      | Mm (Vec.norm v) > Tolerance.stationary = v
-      | otherwise = unitTangent (approach (positionWithin stretch curve u)) curve u
-      where
-        v = TaylorExpansion.velocity jet
+       in (u, TaylorExpansion.position jet, forwards stretch curve u jet)
     best = minimum [Vec.distance p q | (_, found) <- sampled, (_, q, _) <- found]
     -- Finds each minimum of the distance from @p@ that two neighbouring samples enclose. Skips a
     -- minimum that is certainly larger than the distance of the best sample.
@@ -110,12 +103,22 @@ nearest p curve =
     distanceSlope stretch u
       | Mm (Vec.norm v) > Tolerance.stationary =
         (Vec.dot out v, Vec.dot v v + Vec.dot out acceleration)
-      | otherwise = (Vec.dot out (forwards stretch u jet), 0)
+      | otherwise = (Vec.dot out (forwards stretch curve u jet), 0)
       where
         jet@(V2 x y) = ShiftedCurve.expansionAt 2 curve (positionWithin stretch curve u)
         out = Vec.to p (TaylorExpansion.position jet)
         v = TaylorExpansion.velocity jet
         acceleration = Vec.vec (2 * PowerSeries.coefficient 2 x) (2 * PowerSeries.coefficient 2 y)
+
+-- | Velocity at the parameter @u@ of a stretch, by the curve's expansion there, in mm per unit of the
+-- parameter. Where it is 0, as at the end of a span with two equal control points, the result is a
+-- vector of the same direction.
+forwards :: (Double, Double) -> Curve -> Double -> TaylorExpansion -> Vec
+forwards stretch curve u expansion
+  | Mm (Vec.norm v) > Tolerance.stationary = v
+  | otherwise = unitTangent (approach (positionWithin stretch curve u)) curve u
+  where
+    v = TaylorExpansion.velocity expansion
 
 -- | Samples of a stretch, with further ones inserted by bisection. They are inserted between
 -- neighbours whose directions differ by more than 'largestChange'. A sample is a parameter, the
