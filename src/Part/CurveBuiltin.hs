@@ -1,5 +1,6 @@
 -- | Functions of tables and curves: splines, polylines, parabolas, biarcs and fitted sections;
--- Bézier curves, B-splines and parts of ellipses; points, directions, lengths and intersections of curves.
+-- Bézier curves, B-splines and parts of ellipses; points, directions, lengths and intersections of
+-- curves.
 --
 -- 'apply' tries five functions in turn. Each of them computes one group of the built-in functions,
 -- and yields 'Nothing' for all other functions and arguments. The polyarc of a curve is a chain of
@@ -56,7 +57,10 @@ import Part.Value
 -- reports. 'Nothing' if @builtin@ with these arguments is another function.
 apply :: Region -> Builtin -> [Argument] -> Maybe (Eval Value)
 apply region builtin arguments =
-  asum [f region builtin arguments | f <- [newCurve, controlledCurve, tableFunction, pointFunction, measure]]
+  asum
+    [ f region builtin arguments
+      | f <- [newCurve, controlledCurve, tableFunction, pointFunction, measure]
+    ]
 
 -- Tables and new curves
 
@@ -137,7 +141,9 @@ bezier region t ws = do
       most = Tolerance.largestDegree + 1
   if Vector.length points > most
     then wrongControls region (ManyControls (Vector.length points) most)
-    else weightsOf region (Vector.length points) ws >>= controlled region table . Exact.bezier points
+    else
+      weightsOf region (Vector.length points) ws
+        >>= controlled region table . Exact.bezier points
 
 -- | A B-spline of the degree @p@ with the given knots, by the points of a table or a list, and
 -- perhaps a list of weights.

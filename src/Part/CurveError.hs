@@ -100,7 +100,8 @@ data ListFault
 
 -- | The reason why control points, knots and weights describe no curve.
 data ControlPointFault
-  = -- | more control points than a Bézier curve can have: the number of them, and the largest number
+  = -- | more control points than a Bézier curve can have: the number of them, and the largest
+    -- number
     ManyControls Int Int
   | -- | wrong weights for this number of control points
     WrongWeights Int WeightFault

@@ -7,7 +7,7 @@ where
 
 import Base.Decimal qualified as Decimal
 import Base.Name (Name (..))
-import Base.Quantity (LengthUnit, Mm (..), degrees)
+import Base.Quantity (LengthUnit, Mm (..), Rad, degrees)
 import Base.Region (Region)
 import Part.Shape (ShapeFault (..))
 import Report.Report (Label (..), Report (..), at, quote)
@@ -88,17 +88,7 @@ shapeReport unit region fault = case fault of
     (report ("a gear cannot have a pressure angle of " <> Decimal.short 3 (degrees angle) <> "°"))
       { hints = ["Write an angle between 0 and 60 deg. The usual one is 20 deg."]
       }
-  WrongSweep angle ->
-    (report title)
-      { hints = ["The angles FROM and TO of a part of an ellipse differ by at most 360 deg."]
-      }
-    where
-      title
-        | abs (degrees angle) < 1e-3 = "this part of an ellipse has no length"
-        | otherwise =
-          "this part of an ellipse turns by "
-            <> Decimal.short 3 (abs (degrees angle))
-            <> " deg, more than once around"
+  WrongSweep angle -> sweepReport region angle
   NoRootCircle ->
     (report "a gear of so few teeth has no root circle") {hints = ["Give the gear more teeth."]}
   PointedTeeth ->
@@ -113,3 +103,17 @@ shapeReport unit region fault = case fault of
       }
   where
     report = at region "E0370"
+
+-- | The report of a part of an ellipse that turns by the given angle.
+sweepReport :: Region -> Rad -> Report
+sweepReport region angle =
+  (at region "E0370" title)
+    { hints = ["The angles FROM and TO of a part of an ellipse differ by at most 360 deg."]
+    }
+  where
+    title
+      | abs (degrees angle) < 1e-3 = "this part of an ellipse has no length"
+      | otherwise =
+        "this part of an ellipse turns by "
+          <> Decimal.short 3 (abs (degrees angle))
+          <> " deg, more than once around"

@@ -98,21 +98,26 @@ nearest p curve =
           Vec.dot (Vec.to p q) v < 0,
           Vec.dot (Vec.to p r) w > 0,
           min (Vec.distance p q) (Vec.distance p r) <= plus best (times 2 (Vec.distance q r)),
-          let u = RootFinding.zero (distanceSlope stretch) a b
+          let u = RootFinding.zero (distanceSlope p curve stretch) a b
       ]
-    distanceSlope stretch u
-      | Mm (Vec.norm v) > Tolerance.stationary =
-        (Vec.dot out v, Vec.dot v v + Vec.dot out acceleration)
-      | otherwise = (Vec.dot out (forwards stretch curve u jet), 0)
-      where
-        jet@(V2 x y) = ShiftedCurve.expansionAt 2 curve (positionWithin stretch curve u)
-        out = Vec.to p (TaylorExpansion.position jet)
-        v = TaylorExpansion.velocity jet
-        acceleration = Vec.vec (2 * PowerSeries.coefficient 2 x) (2 * PowerSeries.coefficient 2 y)
 
--- | Velocity at the parameter @u@ of a stretch, by the curve's expansion there, in mm per unit of the
--- parameter. Where it is 0, as at the end of a span with two equal control points, the result is a
--- vector of the same direction.
+-- | Half of the derivative of the squared distance from point @p@ at the parameter @u@ of a stretch,
+-- and the derivative of this number. Where the speed is 0, both are by a parameter with another
+-- speed, and the second counts as 0.
+distanceSlope :: Point -> Curve -> (Double, Double) -> Double -> (Double, Double)
+distanceSlope p curve stretch u
+  | Mm (Vec.norm v) > Tolerance.stationary =
+    (Vec.dot out v, Vec.dot v v + Vec.dot out acceleration)
+  | otherwise = (Vec.dot out (forwards stretch curve u jet), 0)
+  where
+    jet@(V2 x y) = ShiftedCurve.expansionAt 2 curve (positionWithin stretch curve u)
+    out = Vec.to p (TaylorExpansion.position jet)
+    v = TaylorExpansion.velocity jet
+    acceleration = Vec.vec (2 * PowerSeries.coefficient 2 x) (2 * PowerSeries.coefficient 2 y)
+
+-- | Velocity at the parameter @u@ of a stretch, in mm per unit of the parameter, by the expansion of
+-- the curve there. Where it is 0, as at the end of a span with two equal control points, the result
+-- is a vector of the same direction.
 forwards :: (Double, Double) -> Curve -> Double -> TaylorExpansion -> Vec
 forwards stretch curve u expansion
   | Mm (Vec.norm v) > Tolerance.stationary = v

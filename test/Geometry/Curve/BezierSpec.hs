@@ -90,8 +90,8 @@ spec = do
       $ property $
         forAll (oneof [Generate.bezier, Generate.bspline]) arcsLaw
     it
-      "are within the tolerance where control points at the ends are equal (catches a speed of 0 at \
-      \an end that is not seen)"
+      "are within the tolerance where control points at the ends are equal (catches a speed of 0 \
+      \at an end that is not seen)"
       $ property $
         forAll stationary $ \(c, _, _) ->
           forAll (Generate.weights (Bezier.degree c + 1)) $ \ws ->

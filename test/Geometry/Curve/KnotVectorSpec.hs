@@ -64,7 +64,8 @@ spec =
         )
     faultOf degree n = either Just (const Nothing) . Curve.knotVector degree n
     closeTo p q =
-      let Mm d = Vec.distance p q in counterexample (show (p, q)) (d <= 1e-10 * (100 + abs (Vec.x p)))
+      let Mm d = Vec.distance p q
+       in counterexample (show (p, q)) (d <= 1e-10 * (100 + abs (Vec.x p)))
 
 -- | The point by the recurrence of the basis functions.
 byBasis :: Int -> [Double] -> [Vec.Point] -> [Double] -> Double -> Vec.Point
