@@ -456,7 +456,7 @@ spanLength s = case s of
      in d
   Round (Arc {start, centre, sweep = Rad a}) -> let Mm r = Vec.distance centre start in r * abs a
   Round (Straight p q) -> let Mm d = Vec.distance p q in d
-  -- Of lines and arcs only; no span of these tests is a Bézier curve.
+  -- No span of these tests is a Bézier curve.
   Controlled _ -> 1 / 0
 
 -- | Points 3–13 of the template of the turbine blade.

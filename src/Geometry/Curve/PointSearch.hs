@@ -101,8 +101,8 @@ nearest p curve =
           let u = RootFinding.zero (distanceSlope p curve stretch) a b
       ]
 
--- | Half of the derivative of the squared distance from point @p@ at the parameter @u@ of a stretch,
--- and the derivative of this number. Where the speed is 0, both are by a parameter with another
+-- | Half of the derivative of the squared distance from point @p@ at a parameter of a stretch, and
+-- the derivative of this number. Where the speed is 0, both are by a parameter with another
 -- speed, and the second counts as 0.
 distanceSlope :: Point -> Curve -> (Double, Double) -> Double -> (Double, Double)
 distanceSlope p curve stretch u
@@ -115,8 +115,8 @@ distanceSlope p curve stretch u
     v = TaylorExpansion.velocity jet
     acceleration = Vec.vec (2 * PowerSeries.coefficient 2 x) (2 * PowerSeries.coefficient 2 y)
 
--- | Velocity at the parameter @u@ of a stretch, in mm per unit of the parameter, by the expansion of
--- the curve there. Where it is 0, as at the end of a span with two equal control points, the result
+-- | Velocity at the parameter @u@ of a stretch, in mm per unit of the parameter, by the expansion
+-- of the curve there. Where it is 0, as at the end of a span with two equal control points, the result
 -- is a vector of the same direction.
 forwards :: (Double, Double) -> Curve -> Double -> TaylorExpansion -> Vec
 forwards stretch curve u expansion
