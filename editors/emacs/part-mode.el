@@ -77,7 +77,7 @@
     ("\\_<\\(?:part\\|let\\|param\\|table\\|curve\\|piece\\|contour\\)[ \t]+\\(\\(?:\\sw\\|\\s_\\)+\\)"
      1 font-lock-variable-name-face)
     ;; These words begin a line; elsewhere they are names.
-    ("^[ \t]*\\(pocket\\|face\\|work\\|program\\|safe\\|stock\\|avoid\\|dwell\\|spot\\|ream\\|countersink\\|counterbore\\|bore\\|tap\\|thread\\)[ \t]+[(-]?\\(?:\\sw\\|\\s_\\)"
+    ("^[ \t]*\\(pocket\\|face\\|work\\|program\\|safe\\|stock\\|avoid\\|contours\\|dwell\\|spot\\|ream\\|countersink\\|counterbore\\|bore\\|tap\\|thread\\)[ \t]+[(-]?\\(?:\\sw\\|\\s_\\)"
      1 font-lock-keyword-face)
     ("^[ \t]*\\(rest[ \t]+of\\)[ \t]" 1 font-lock-keyword-face)
     ("^[ \t]*pocket[ \t].*[ \t]\\(as\\)[ \t]" 1 font-lock-keyword-face)
@@ -95,6 +95,8 @@
     ("\\_<change\\_>.*)[ \t]*\\(at\\)\\_>" 1 font-lock-keyword-face)
     ("^[ \t]*dwell[ \t].*\\_<\\(s\\)[ \t]*\\(?:--.*\\)?$" 1 font-lock-keyword-face)
     ("^[ \t]*\\(?:stock\\|avoid\\)[ \t].*?\\_<from\\_>.*?\\_<\\(to\\)\\_>" 1 font-lock-keyword-face)
+    ("^[ \t]*\\(?:contours?\\|table\\)[ \t].*\\_<from[ \t]+\".*?\"[ \t]+\\(layer\\|id\\|class\\|unit\\)\\_>"
+     1 font-lock-keyword-face)
     ("\\_<corners[ \t]+\\(round\\|sharp\\)\\_>" 1 font-lock-keyword-face)
     ("\\_<compensation[ \t]+\\(compiler\\|controller\\)\\_>" 1 font-lock-keyword-face)
     ("\\_<rest[ \t]+\\(allowed\\)\\_>" 1 font-lock-keyword-face)

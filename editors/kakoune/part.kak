@@ -50,7 +50,7 @@ provide-module part %§
     # The other words that cannot be names
     add-highlighter shared/part/code/ regex \b(for|if|in|then|else|and|or|not|open|closed|cw|ccw|meet|near|smooth|tangent|fillet|chamfer|slow|allowance|bevel|outside|inside|left|right|on|within|first|last|approach|retract)\b 1:keyword
     # Words that begin a line and are names elsewhere
-    add-highlighter shared/part/code/ regex ^\h*(pocket|face|work|program|safe|stock|avoid|dwell|spot|ream|countersink|counterbore|bore|tap|thread)\h+[(-]?\w 1:keyword
+    add-highlighter shared/part/code/ regex ^\h*(pocket|face|work|program|safe|stock|avoid|contours|dwell|spot|ream|countersink|counterbore|bore|tap|thread)\h+[(-]?\w 1:keyword
     add-highlighter shared/part/code/ regex ^\h*(rest\h+of)\h 1:keyword
     add-highlighter shared/part/code/ regex ^\h*pocket\h[^\n]*\h(as)\h 1:keyword
     add-highlighter shared/part/code/ regex ^\h*((?:optional\h+)?stop)\h*$ 1:keyword
@@ -65,6 +65,7 @@ provide-module part %§
     add-highlighter shared/part/code/ regex \bchange\b[^\n]*\)\h*(at)\b 1:keyword
     add-highlighter shared/part/code/ regex ^\h*dwell\h[^\n]*\b(s)\h*$ 1:keyword
     add-highlighter shared/part/code/ regex ^\h*(?:stock|avoid)\h[^\n]*?\bfrom\b[^\n]*?\b(to)\b 1:keyword
+    add-highlighter shared/part/code/ regex ^\h*(?:contours?|table)\h[^\n]*\bfrom\h[^\n]*\b(layer|id|class|unit)\h 1:keyword
     add-highlighter shared/part/code/ regex \bcorners\h+(round|sharp)\b 1:keyword
     add-highlighter shared/part/code/ regex \bcompensation\h+(compiler|controller)\b 1:keyword
     add-highlighter shared/part/code/ regex \brest\h+(allowed)\b 1:keyword

@@ -62,7 +62,7 @@ module.exports = grammar({
     _statement: $ => choice(
       $.part, $.units, $.machine, $.import, $.tool, $.feed, $.tolerance, $.clearance, $.from,
       $.work, $.program_number, $.safe, $.stock, $.avoid,
-      $.let, $.param, $.table, $.curve, $.piece, $.contour, $.assert,
+      $.let, $.param, $.table, $.curve, $.piece, $.contour, $.drawn_contour, $.drawn_contours, $.assert,
       $.mill, $.turn, $.pocket, $.rest_of, $.face, $.drill, $.hole, $.rapid, $.move,
       $.change, $.spindle, $.coolant, $.aux, $.program_stop, $.optional_stop, $.dwell,
       $.for, $.if, $.with,
@@ -105,7 +105,7 @@ module.exports = grammar({
     table: $ => seq(
       'table',
       field('name', $.name),
-      choice(seq('from', field('file', $.text)), field('rows', $.rows)),
+      choice(seq('from', $._drawing), field('rows', $.rows)),
     ),
     rows: $ => seq('{', repeat(choice($.headings, $.row)), '}'),
     headings: $ => seq(repeat1($.heading), $._row_end),
@@ -264,6 +264,14 @@ module.exports = grammar({
       choice('closed', 'open'),
       field('items', $.items),
     ),
+    drawn_contour: $ => seq('contour', field('name', $.name), 'from', $._drawing),
+    drawn_contours: $ => seq('contours', field('name', $.name), 'from', $._drawing),
+    _drawing: $ => prec.right(seq(
+      field('file', $.text),
+      optional(seq(choice('layer', 'id', 'class'), $.text)),
+      optional(seq('unit', choice('mm', 'in'))),
+      optional(seq('within', $.number)),
+    )),
     items: $ => seq('{', repeat($._item), '}'),
     _item: $ => choice(alias($.for_items, $.for), alias($.if_items, $.if), $.element),
     for_items: $ => seq(

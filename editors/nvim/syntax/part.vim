@@ -12,7 +12,7 @@ syntax match partNumber /\<\d\+\(\.\d\+\)\?/
 syntax keyword partStatement part machine import tool feed tolerance clearance from let param table curve piece contour assert
 syntax keyword partStatement mill turn drill rapid move change spindle coolant aux with
 " Names as well, but for where a statement begins.
-syntax match partStatement /^\s*\zs\<\(pocket\|face\|work\|program\|safe\|stock\|avoid\|dwell\|spot\|ream\|countersink\|counterbore\|bore\|tap\|thread\)\ze\s\+[(-]\?\k/
+syntax match partStatement /^\s*\zs\<\(pocket\|face\|work\|program\|safe\|stock\|avoid\|contours\|dwell\|spot\|ream\|countersink\|counterbore\|bore\|tap\|thread\)\ze\s\+[(-]\?\k/
 syntax match partStatement /^\s*\zs\<rest\s\+of\ze\s/
 syntax match partStatement /\(^\s*pocket\s.*\)\@<=\<as\ze\s/
 syntax match partStatement /^\s*\zs\<\(optional\s\+\)\?stop\ze\s*\(--.*\)\?$/
@@ -21,6 +21,7 @@ syntax match partStatement /\(^\s*spindle\s.*\)\@<=\<limit\>/
 syntax match partStatement /\(\<change\>.*)\s*\)\@<=at\>/
 syntax match partStatement /\(^\s*dwell\s.*\)\@<=\<s\ze\s*\(--.*\)\?$/
 syntax match partStatement /\(^\s*\(stock\|avoid\)\s.*\<from\>.*\)\@<=\<to\>/
+syntax match partStatement /\(^\s*\(contours\?\|table\)\s.*\<from\s*".*\)\@<=\<\(layer\|id\|class\|unit\)\ze\s/
 syntax match partCutter /\(,\s*\)\@<=\(flutes\|stickout\|holder\|angle\|pitch\)\ze\s\+[(-]\?\k/
 syntax match partCutter /\(,\s*holder\s\([^,()]\|([^()]*)\)*\)\@<=\<height\ze\s/
 syntax match partCutter /\(\<turn(.*,\s*\)\@<=tip\>/

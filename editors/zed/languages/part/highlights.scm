@@ -13,7 +13,7 @@
   "part" "units" "machine" "import" "tool" "feed" "tolerance" "clearance" "from"
   "let" "param" "table" "curve" "piece" "contour" "assert"
   "mill" "turn" "pocket" "face" "drill" "rapid" "move" "change" "spindle" "coolant" "aux" "with"
-  "work" "program" "safe" "stock" "avoid" "stop" "optional" "dwell"
+  "work" "program" "safe" "stock" "avoid" "contours" "stop" "optional" "dwell"
   "spot" "ream" "countersink" "counterbore" "bore" "tap" "thread"
 ] @keyword
 
