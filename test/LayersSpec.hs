@@ -88,6 +88,8 @@ sanctioned :: Map Text [Text]
 sanctioned =
   Map.fromList
     [ ("Base.Crash", ["Control.Exception"]),
+      -- the type of the errors that the parser of XML gives as a value
+      ("Drawing.XmlElement", ["Control.Exception"]),
       ( "Preview.Server",
         [ "Control.Concurrent",
           "Control.Concurrent.MVar",

@@ -3,6 +3,7 @@ module Drawing.CodePage
   ( Encoding,
     fromHeader,
     decode,
+    singleBytes,
   )
 where
 
@@ -49,9 +50,11 @@ isUnicode version = case Text.stripPrefix "AC" version of
 
 -- | The number of a code page without the name of its maker: @1251@ of @ANSI_1251@.
 withoutMaker :: Text -> Text
-withoutMaker name = case mapMaybe (`Text.stripPrefix` name) ["ANSI_", "ANSI", "DOS", "CP"] of
+withoutMaker name = case mapMaybe (`Text.stripPrefix` name) makers of
   number : _ -> Text.dropWhile (`elem` ("-_ " :: String)) number
   [] -> name
+  where
+    makers = ["ANSI_", "ANSI", "DOS", "WINDOWS", "CP"]
 
 -- | The text of a name, with its escapes resolved: @\\U+0416@ is the character of that number, and
 -- a pair of surrogates is one character. Escapes @\\M+@ of multi-byte code pages remain as they
@@ -63,17 +66,24 @@ decode encoding bytes
   where
     decoded = case encoding of
       Utf8 -> either (const (Left (NotInEncoding "UTF-8"))) Right (Encoding.decodeUtf8' bytes)
-      SingleByte page table -> singleBytes page table
+      SingleByte page table -> byTable page table bytes
       Unknown page -> Left (CodePageUnknown page)
       NotStated -> case Encoding.decodeUtf8' bytes of
+        Left _ -> singleBytes "windows-1252" bytes
         Right text -> Right text
-        Left _ -> maybe (Left (NotInEncoding "UTF-8")) (singleBytes "windows-1252") western
-    western = CodePageTable.upperHalf "1252"
-    singleBytes page table
-      | Text.any (== noCharacter) text = Left (NotInEncoding page)
-      | otherwise = Right text
-      where
-        text = Text.pack (map (character table . fromEnum) (ByteString.unpack bytes))
+
+-- | The text of bytes in a code page of single bytes, such as @windows-1251@.
+singleBytes :: Text -> ByteString -> Either DrawingFault Text
+singleBytes page bytes = case CodePageTable.upperHalf (withoutMaker (Text.toUpper page)) of
+  Just table -> byTable page table bytes
+  Nothing -> Left (CodePageUnknown page)
+
+byTable :: Text -> Vector Char -> ByteString -> Either DrawingFault Text
+byTable page table bytes
+  | Text.any (== noCharacter) text = Left (NotInEncoding page)
+  | otherwise = Right text
+  where
+    text = Text.pack (map (character table . fromEnum) (ByteString.unpack bytes))
 
 character :: Vector Char -> Int -> Char
 character table byte

@@ -117,4 +117,6 @@ data RemarkKind
     Invisible Text
   | -- | an entity on a layer that is frozen or off, and is not read: its word and the layer
     OnHiddenLayer Text Text
+  | -- | an element that the file clips or masks, and that is read as a whole: its word
+    Unclipped Text
   deriving stock (Eq, Ord, Show)

@@ -6,17 +6,17 @@ where
 
 import Data.Bifunctor (first)
 import Data.List (maximumBy)
-import Data.List.NonEmpty (NonEmpty (..))
+import Data.List.NonEmpty (NonEmpty)
 import Data.Map.Strict (Map)
 import Data.Map.Strict qualified as Map
 import Data.Ord (comparing)
-import Data.Set qualified as Set
 import Data.Text (Text)
 import Drawing.AffineMap (AffineMap, after)
 import Drawing.AffineMap qualified as AffineMap
+import Drawing.Assembly (DrawingPart (..))
+import Drawing.Assembly qualified as Assembly
 import Drawing.CodePage (Encoding)
-import Drawing.Drawing (Drawing (Drawing), Entity (..), Remark (..), RemarkKind (..), Shape)
-import Drawing.Drawing qualified as Drawing
+import Drawing.Drawing (Drawing, Entity (..), Remark (..), RemarkKind (..))
 import Drawing.DxfBlock (BlockContent (..), Blocks, DxfItem (..), ItemContent (..))
 import Drawing.DxfBlock qualified as DxfBlock
 import Drawing.DxfInsert (Insert (blockName))
@@ -25,8 +25,6 @@ import Drawing.DxfRecord (Record)
 import Drawing.DxfRecord qualified as DxfRecord
 import Drawing.DxfSection (Sections (..))
 import Drawing.Error (DrawingFault (..), Error (Error))
-import Drawing.ShapeCheck (Judgement (..))
-import Drawing.ShapeCheck qualified as ShapeCheck
 import Drawing.Tolerance qualified as Tolerance
 
 -- | The drawing of a file whose unit has this length in mm. All errors of its entities are
@@ -41,21 +39,7 @@ drawing encoding unit sections = do
       context = Context {known, hidden, toDrawing = scaled, layerOfInsert = "0"}
   if sum (map fst weights) > toInteger Tolerance.mostParts
     then Left (pure (Error (snd (maximumBy (comparing fst) weights)) TooManyParts))
-    else assembled (concatMap (partsOf context) own)
-
--- | A part of the drawing.
-data Part = Drawn Entity | Remarked Remark | Wrong Error
-
--- | The drawing of its parts. A remark on an entity that is inserted several times is given once.
-assembled :: [Part] -> Either (NonEmpty Error) Drawing
-assembled found = case [e | Wrong e <- found] of
-  e : es -> Left (e :| take (Tolerance.mostErrors - 1) es)
-  [] ->
-    Right
-      Drawing
-        { Drawing.entities = [e | Drawn e <- found],
-          Drawing.remarks = Set.toAscList (Set.fromList [r | Remarked r <- found])
-        }
+    else Assembly.assembled (concatMap (partsOf context) own)
 
 -- Layers --------------------------------------------------------------------------------------
 
@@ -91,12 +75,22 @@ data Context = Context
   }
 
 -- | The parts of the drawing that an item becomes.
-partsOf :: Context -> DxfItem -> [Part]
+partsOf :: Context -> DxfItem -> [DrawingPart]
 partsOf context DxfItem {itemLine = line, itemWord, itemLayer, content} = case content of
   Noted kind -> [remarked kind]
-  Shaped shape -> case hiding of
+  Shaped own -> case hiding of
     Just _ -> [remarked (OnHiddenLayer itemWord layer)]
-    Nothing -> [partOf line itemWord layer (AffineMap.shape (toDrawing context) shape)]
+    Nothing ->
+      [ Assembly.partOf
+          Entity
+            { line,
+              word = itemWord,
+              layer,
+              identifiers = [],
+              classes = [],
+              shape = AffineMap.shape (toDrawing context) own
+            }
+      ]
   Inserted insert
     | hiding == Just Frozen -> [remarked (OnHiddenLayer itemWord layer)]
     | otherwise -> case Map.lookup (DxfBlock.key (blockName insert)) (known context) of
@@ -115,11 +109,3 @@ partsOf context DxfItem {itemLine = line, itemWord, itemLayer, content} = case c
       concatMap
         (partsOf context {toDrawing = toDrawing context `after` m, layerOfInsert = layer})
         (items block)
-
--- | The part of a shape in mm.
-partOf :: Int -> Text -> Text -> Shape -> Part
-partOf line word layer shape = case ShapeCheck.judge shape of
-  Usable usable ->
-    Drawn Entity {line, word, layer, identifiers = [], classes = [], shape = usable}
-  Degenerate reason -> Remarked Remark {remarkLine = line, remarkKind = Unusable word reason}
-  TooFar -> Wrong (Error line (OutOfReach word))

@@ -4,6 +4,9 @@ module Drawing.Tolerance
   ( -- * Limits
     mostParts,
     mostNesting,
+    mostElementDepth,
+    mostEntityLength,
+    mostExpansion,
     mostDegree,
     mostDigits,
     mostErrors,
@@ -30,6 +33,19 @@ mostParts = 500000
 -- | The largest depth of blocks or elements within one another.
 mostNesting :: Int
 mostNesting = 64
+
+-- | The largest depth of XML elements within one another.
+mostElementDepth :: Int
+mostElementDepth = 500
+
+-- | The largest count of characters of an XML entity that a file declares. Programs declare the
+-- names of namespaces.
+mostEntityLength :: Int
+mostEntityLength = 1000
+
+-- | The largest count of characters that all references to declared entities may have together.
+mostExpansion :: Int
+mostExpansion = 20000000
 
 -- | The largest degree of a spline. Programs write 2 to 5, and some up to 25.
 mostDegree :: Int

@@ -38,10 +38,10 @@ answers reader bytes = ioProperty $ do
   where
     count = 1 + Bytes.count '\n' bytes + Bytes.count '\r' bytes
 
--- | Bytes that a reader may allocate: 4 kB for each byte of the file, and 1 GB for the drawing with
+-- | Bytes that a reader may allocate: 4 kB for each byte of the file, and 4 GB for the drawing with
 -- the most parts that is allowed.
 limit :: ByteString -> Int64
-limit bytes = 4000 * fromIntegral (ByteString.length bytes) + 1000000000
+limit bytes = 4000 * fromIntegral (ByteString.length bytes) + 4000000000
 
 cause :: SomeException -> String
 cause e = case fromException e of

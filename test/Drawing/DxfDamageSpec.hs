@@ -35,9 +35,10 @@ arrays :: Gen ByteString
 arrays = do
   depth <- choose (1, 6 :: Int)
   members <- traverse member [1 .. depth]
+  inner <- elements [circle, []]
   pure . Bytes.unlines $
     ["0", "SECTION", "2", "BLOCKS"]
-      <> concat [block (shown i) body | (i, body) <- zip [0 ..] (circle : take (depth - 1) members)]
+      <> concat [block (shown i) body | (i, body) <- zip [0 ..] (inner : take (depth - 1) members)]
       <> ["0", "ENDSEC", "0", "SECTION", "2", "ENTITIES"]
       <> last members
       <> ["0", "ENDSEC", "0", "EOF"]
