@@ -38,6 +38,7 @@ import Drawing.Outline (ClosedGap (..), DrawnPart (..), JoinFault (..), Joining 
 import Drawing.Outline qualified as Outline
 import Drawing.OutlineTolerance qualified as Tolerance
 import Drawing.PathPart qualified as PathPart
+import Drawing.Svg qualified as Svg
 import Geometry.Carrier (Circle (Circle))
 import Geometry.Polyarc qualified as Polyarc
 import Geometry.Segment (Segment (Arc))
@@ -74,7 +75,7 @@ fromBytes ::
 fromBytes (Located at name) stated (begin, shown) content = case formatOf name of
   Nothing -> ([NotADrawing at name], [], Nothing)
   Just Dxf -> made (Dxf.fromDxf stated content)
-  Just Svg -> ([NotADrawing at name], [], Nothing)
+  Just Svg -> made (Svg.fromSvg content)
   where
     made outcome = case outcome of
       Left faults -> (map bad (NonEmpty.toList faults), [], Nothing)
@@ -117,6 +118,7 @@ remarkText kind count = case kind of
   Smoothed word -> counted word <> " read as the polyline that draws the smoothed one"
   InPaperSpace word -> left word <> ": on a page for printing"
   Invisible word -> left word <> ": invisible"
+  Unclipped word -> counted word <> " read whole, although the file clips or masks it"
   OnHiddenLayer word layer -> left word <> ": on the layer " <> quote layer <> ", which is off"
   where
     left word = counted word <> " left out"
