@@ -66,6 +66,10 @@ table =
     Layer Folder "Pulse" (Only ["Control", "Tape"]),
     Layer Folder "Verify" Above,
     Layer Folder "Draw" Above,
+    Layer
+      Folder
+      "Export"
+      (Only ["Base", "Geometry", "Part", "Toolpath", "Draw"]),
     Layer Folder "Project" (Only ["Sheet", "Toolpath", "Machine"]),
     Layer Single "Compile" (Only ["Project", "Tape", "Gcode", "Control", "Verify"]),
     Layer

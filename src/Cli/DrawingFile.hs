@@ -1,8 +1,9 @@
--- | Files of drawings. A drawing is SVG; a file whose name ends in @.png@ or @.pdf@ is converted by
--- a renderer, which is another program on this computer.
+-- | Files of drawings. A picture is SVG; a file whose name ends in @.png@ or @.pdf@ is converted by
+-- a renderer, which is another program on this computer. A drawing for CAD programs is DXF or SVG.
 module Cli.DrawingFile
   ( writeDrawing,
     writePages,
+    writeExport,
   )
 where
 
@@ -20,6 +21,9 @@ import Data.Maybe (fromMaybe)
 import Data.Text (Text)
 import Data.Text qualified as Text
 import Data.Text.Encoding qualified as Encoding
+import Export.CadDrawing (CadDrawing)
+import Export.Dxf qualified as Dxf
+import Export.Svg qualified as Svg
 import System.Directory
   ( findExecutable,
     getTemporaryDirectory,
@@ -52,7 +56,12 @@ writePages :: Reporter -> Text -> [FilePath] -> Maybe FilePath -> Text -> [Text]
 writePages reporter name sources wanted whole pages = case wanted of
   Just path
     | NoForm ending <- formOf path ->
-      unlessSource reporter name sources path (failWith reporter name (NoSuchForm ending))
+      unlessSource
+        reporter
+        name
+        sources
+        path
+        (failWith reporter name (NoSuchForm ending ".svg, .png or .pdf"))
   Just path | Rendered form <- formOf path -> do
     let drawings = case form of
           Pdf -> pages
@@ -62,6 +71,26 @@ writePages reporter name sources wanted whole pages = case wanted of
       Left e -> failWith reporter name e
       Right bytes -> writeBytes reporter name sources path bytes
   _ -> writeText reporter name sources wanted whole
+
+-- | Writes a drawing for CAD programs, as DXF or SVG by the ending of the name. Without an ending,
+-- and on standard output, it is DXF. The arguments are those of 'writeDrawing'.
+writeExport :: Reporter -> Text -> [FilePath] -> Maybe FilePath -> CadDrawing -> IO Exit
+writeExport reporter name sources wanted drawing = case wanted of
+  Nothing -> written (Dxf.document drawing)
+  Just "-" -> written (Dxf.document drawing)
+  Just path -> case map toLower (takeExtension path) of
+    "" -> written (Dxf.document drawing)
+    ".dxf" -> written (Dxf.document drawing)
+    ".svg" -> written (Svg.document drawing)
+    _ ->
+      unlessSource
+        reporter
+        name
+        sources
+        path
+        (failWith reporter name (NoSuchForm (Text.pack (takeExtension path)) ".dxf or .svg"))
+  where
+    written = writeText reporter name sources wanted
 
 -- | Form of a file by the ending of its name. A name without an ending means SVG.
 formOf :: FilePath -> Form

@@ -50,8 +50,9 @@ data Error
     NoRenderer
   | -- | No installed program could convert the drawing: the name of the last one, and what it said.
     RendererFails Text
-  | -- | The name of the file for a drawing ends in this, the ending of another form.
-    NoSuchForm Text
+  | -- | The name of the file for a drawing ends in this, the ending of another form. The second text
+    -- lists the endings that it may have.
+    NoSuchForm Text Text
   | -- | The command line gives a value to the parameter of this name, but the program is an input
     -- sheet, which has no parameters.
     SheetAssigned Text
@@ -174,9 +175,9 @@ toReport err = case err of
     (wrong "E0820" InFile ("the drawing could not be converted: " <> why))
       { hints = ["Write SVG: give the output a name that ends in .svg."]
       }
-  NoSuchForm ending ->
+  NoSuchForm ending known ->
     (wrong "E0823" InCommandLine ("a drawing cannot be written as ‘" <> ending <> "’"))
-      { hints = ["Give the output a name that ends in .svg, .png or .pdf."]
+      { hints = ["Give the output a name that ends in " <> known <> "."]
       }
   CannotListen why ->
     (wrong "E0821" InCommandLine ("the page cannot be served: " <> why))

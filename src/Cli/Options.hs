@@ -69,6 +69,8 @@ data Subcommand
   | Run RunOptions
   | -- | the program, the drawing to write, its page and its line styles
     Plot FilePath (Maybe FilePath) PlotSettings
+  | -- | the program, the drawing for CAD programs to write
+    Export FilePath (Maybe FilePath)
   | -- | the machine, without which the command fails; the rows to show; the drawing to write, or
     -- nothing for a picture in letters, and true if it is punched into film; the tape
     DrawTape (Maybe Text) RowRange (Maybe (FilePath, Bool)) FilePath
@@ -216,6 +218,11 @@ commands =
         "Draw part, path, nodes and cutter as SVG"
         "partc plot flange.part -o flange.svg"
         (Plot <$> program <*> optional outputFile <*> plotSettings),
+      entry
+        "export"
+        "Draw part and path for CAD programs as DXF or SVG"
+        "partc export flange.part -o flange.dxf"
+        (Export <$> program <*> optional exportedFile),
       entry
         "preview"
         "Serve a page that follows a program and plays its tape"
@@ -489,6 +496,9 @@ rangeOption =
 
 outputFile :: Parser FilePath
 outputFile = outputOption "The file to write; - for standard output"
+
+exportedFile :: Parser FilePath
+exportedFile = outputOption "The file to write: X.dxf or X.svg; - for DXF on standard output"
 
 tapeDrawing :: Parser (FilePath, Bool)
 tapeDrawing =

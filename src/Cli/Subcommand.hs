@@ -11,7 +11,7 @@ import Base.Quantity (LengthUnit)
 import Base.Region qualified as Region
 import Base.Result (Result (..))
 import Base.Result qualified as Result
-import Cli.DrawingFile (writeDrawing, writePages)
+import Cli.DrawingFile (writeDrawing, writeExport, writePages)
 import Cli.Error (Error (..), Warning (..))
 import Cli.Error qualified as Cli
 import Cli.FixCommand qualified as FixCommand
@@ -61,6 +61,7 @@ import Draw.PlotSettings (PlotSettings)
 import Draw.TapeRows qualified as TapeRows
 import Draw.TapeSheet (TapeMaterial (..))
 import Draw.TapeSheet qualified as TapeSheet
+import Export.FromPart qualified as Export
 import Frame.Frame (Frame)
 import Frame.Frame qualified as Frame
 import Gcode.ToFrames (GcodeReading)
@@ -110,6 +111,7 @@ perform reporter command = case command of
   Decode target tape -> decode reporter target tape
   Run options -> RunCommand.run reporter options
   Plot file output chosen -> plot reporter file output chosen
+  Export file output -> export reporter file output
   Preview options -> PreviewCommand.preview reporter options
   Machines name asText -> machines reporter name asText
   DrawTape target range Nothing tape -> drawTape reporter target range tape
@@ -372,6 +374,17 @@ plot reporter file wanted chosen = withInput reporter file [] $ \given ->
       (ownFiles file given)
       wanted
       (Plot.plot chosen (Compile.part analysis) (Compile.path analysis))
+
+-- | Writes the drawing of a program for CAD programs. Without an output path it is DXF.
+export :: Reporter -> FilePath -> Maybe FilePath -> IO Exit
+export reporter file wanted = withInput reporter file [] $ \given ->
+  settled reporter given (Compile.analyse (values given) (loaded given)) $ \analysis ->
+    writeExport
+      reporter
+      (displayName file)
+      (ownFiles file given)
+      wanted
+      (Export.drawing (Compile.part analysis) (Compile.path analysis))
 
 -- | Calls 'whenSound' with the name and the source of the program @given@: writes the reports of
 -- the result, and continues with its output if no report stops the command.

@@ -1,0 +1,142 @@
+-- | The curves of the elements of contours. A contour has arcs and lines in the place of a curve.
+-- This module finds the exact curve, and the part of it along which these arcs run.
+module Export.ElementCurve
+  ( ElementCurves,
+    ofContours,
+    along,
+  )
+where
+
+import Base.Quantity (Mm)
+import Base.Region (Region)
+import Data.List.NonEmpty (NonEmpty (..))
+import Data.List.NonEmpty qualified as NonEmpty
+import Data.Map.Strict (Map)
+import Data.Map.Strict qualified as Map
+import Data.Maybe (isJust, listToMaybe, mapMaybe)
+import Data.Semigroup (sconcat)
+import Data.Vector qualified as Vector
+import Export.Bezier (Bezier)
+import Export.Bezier qualified as Bezier
+import Export.Tolerance qualified as Tolerance
+import Geometry.Curve (Curve)
+import Geometry.Curve qualified as Curve
+import Geometry.Curve.BasisCurve qualified as BasisCurve
+import Geometry.Curve.Span (Span (Polynomial))
+import Geometry.Curve.Spline qualified as Spline
+import Geometry.Segment (Segment)
+import Geometry.Segment qualified as Segment
+import Geometry.Vec (Point)
+import Geometry.Vec qualified as Vec
+import Part.Curve (PartCurve (exact))
+import Part.Part (Contour, ContourElement (elementCurve, elementRegion))
+import Part.Part qualified as Part
+
+-- | The curves of the elements, by the regions of the elements. A repetition or a function gives
+-- several curves to one region. Each curve is evaluated when it is needed.
+newtype ElementCurves = ElementCurves (Map Region [Pieces])
+
+-- | The cubic curves of an element in its direction, and true if they end where they begin.
+data Pieces = Pieces {cubics :: NonEmpty Bezier, isClosed :: Bool}
+
+-- | The curves of the elements of contours. A curve that consists of lines and arcs is left out,
+-- because its contour has the same lines and arcs.
+ofContours :: [Contour] -> ElementCurves
+ofContours contours =
+  ElementCurves $
+    Map.fromListWith
+      (flip (<>))
+      [ (elementRegion e, [Pieces pieces (Vec.isNear (startOf pieces) (endOf pieces))])
+        | c <- contours,
+          e <- Part.writtenElements c,
+          Just curve <- [elementCurve e],
+          Just pieces <- [piecesOf (exact curve)],
+          not (all Bezier.isStraight pieces)
+      ]
+  where
+    startOf = Bezier.start . NonEmpty.head
+    endOf = Bezier.end . NonEmpty.last
+
+-- | The cubic curves of a curve. Nothing if it consists of lines and arcs only, or if
+-- 'Curve.cubics' finds no cubics for a shifted curve.
+piecesOf :: Curve -> Maybe (NonEmpty Bezier)
+piecesOf curve
+  | isJust (Curve.toSegments curve) = Nothing
+  | Just (_, xs, ys) <- Curve.cubics Tolerance.cubic curve =
+    joined [Polynomial (Spline.at xs i) (Spline.at ys i) | i <- [0 .. Spline.count xs - 1]]
+  | null (Curve.layers curve) = joined (Vector.toList (BasisCurve.spans (Curve.base curve)))
+  | otherwise = Nothing
+  where
+    joined spans = sconcat <$> NonEmpty.nonEmpty (map (Bezier.fromSpan Tolerance.cubic) spans)
+
+-- | The cubic curves along the segments of an element, from the start of the first segment to the
+-- end of the last one. @at@ is the region of the element. Nothing if the element has no curve, or
+-- if its curve does not pass through the ends and the middles of all segments, because the contour
+-- was transformed.
+along :: ElementCurves -> Region -> NonEmpty Segment -> Maybe (NonEmpty Bezier)
+along (ElementCurves known) at segments =
+  listToMaybe (mapMaybe (partAlong nodes) (Map.findWithDefault [] at known))
+  where
+    nodes =
+      Segment.start (NonEmpty.head segments) :
+      concat [[Segment.at 0.5 s, Segment.end s] | s <- NonEmpty.toList segments]
+
+-- | The part of a curve between the first and the last node, if the curve passes through all nodes
+-- in their order or in the opposite one.
+partAlong :: [Point] -> Pieces -> Maybe (NonEmpty Bezier)
+partAlong nodes pieces =
+  listToMaybe (mapMaybe (partForwards nodes) [pieces, backwards])
+  where
+    backwards = pieces {cubics = NonEmpty.reverse (fmap Bezier.reversed (cubics pieces))}
+
+-- | The part of a curve between the first and the last node, if it passes through all of them in
+-- their order. In a closed curve the part may lead over the end of the curve.
+partForwards :: [Point] -> Pieces -> Maybe (NonEmpty Bezier)
+partForwards nodes Pieces {cubics, isClosed} = do
+  found <- traverse (position Tolerance.onCurve numbered) nodes
+  let begin = onSeam 0 (listToMaybe found)
+      stations = begin : drop 1 found
+      final = onSeam whole (listToMaybe (reverse stations))
+      rising = and (zipWith (<=) stations (drop 1 (init stations <> [final])))
+      wraps = length (filter id (zipWith (>) stations (drop 1 (init stations <> [final]))))
+  part <- NonEmpty.nonEmpty $ case () of
+    _
+      | rising -> cut begin final
+      | isClosed && wraps == 1 && final <= begin -> cut begin whole <> cut 0 final
+      | otherwise -> []
+  pure (withEnds nodes part)
+  where
+    numbered = zip [0 ..] (NonEmpty.toList cubics)
+    whole = fromIntegral (length cubics) :: Double
+    -- The seam of a closed curve is its start and its end: a node there has both parameters.
+    onSeam wanted station = case station of
+      Just u | isClosed && (u <= slack || u >= whole - slack) -> wanted
+      Just u -> u
+      Nothing -> wanted
+    slack = 1e-9
+    cut a b =
+      [ Bezier.between (max 0 (a - i)) (min 1 (b - i)) piece
+        | (i, piece) <- numbered,
+          a < i + 1 - slack,
+          b > i + slack
+      ]
+
+-- | The parameter of a point on numbered curves: the number of a curve, and the parameter along it.
+-- Nothing if none of the curves passes through the point.
+position :: Mm -> [(Double, Bezier)] -> Point -> Maybe Double
+position reach numbered p =
+  fst <$> foldl nearer Nothing found
+  where
+    found = [(i + t, d) | (i, b) <- numbered, Just (t, d) <- [Bezier.nearest reach p b]]
+    nearer best new = case best of
+      Just (_, d) | d <= snd new -> best
+      _ -> Just new
+
+-- | The curves with the first and the last node as their ends, so that they join their neighbours.
+withEnds :: [Point] -> NonEmpty Bezier -> NonEmpty Bezier
+withEnds nodes (first :| others) = case nodes of
+  [] -> first :| others
+  begin : _ -> ending (Bezier.withStart begin first :| others)
+  where
+    ending list = case NonEmpty.reverse list of
+      final :| before -> NonEmpty.reverse (Bezier.withEnd (last nodes) final :| before)
