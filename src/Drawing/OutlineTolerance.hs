@@ -3,6 +3,7 @@ module Drawing.OutlineTolerance
   ( joining,
     same,
     rounding,
+    decimals,
   )
 where
 
@@ -21,3 +22,8 @@ same = Mm 1e-6
 -- | Distance in mm below which two positions differ by the rounding of doubles only.
 rounding :: Mm
 rounding = Mm 1e-9
+
+-- | Decimals in mm to which the lengths of a drawing are rounded. Transformations leave further
+-- decimals that are rounding only.
+decimals :: Int
+decimals = 10

@@ -3,7 +3,7 @@
 -- | The rules of the grammar for parts of drawings. They take the rule for numbers from
 -- "Surface.Grammar".
 module Surface.DrawingGrammar
-  ( drawingPart,
+  ( drawingReference,
     fromFile,
   )
 where
@@ -19,12 +19,12 @@ import Text.Megaparsec ((<?>), (<|>))
 import Text.Megaparsec qualified as Parsec
 
 -- | A part of a drawing: the name of its file, and what is chosen of it.
-drawingPart :: Parser Expr -> Parser DrawingPart
-drawingPart number = do
+drawingReference :: Parser Expr -> Parser DrawingReference
+drawingReference number = do
   file <- text' <?> "the name of a file in quotation marks"
   chosen <- Parsec.optional (onThisLine (located choice))
   unit <- Parsec.optional (onThisLine (keyword "unit" *> located lengthUnit))
-  DrawingPart file chosen unit <$> Parsec.optional (onThisLine (keyword "within" *> number))
+  DrawingReference file chosen unit <$> Parsec.optional (onThisLine (keyword "within" *> number))
   where
     choice =
       (OnLayer <$> (keyword "layer" *> named))
@@ -34,8 +34,8 @@ drawingPart number = do
     lengthUnit = (Millimetres <$ keyword "mm") <|> (Inches <$ keyword "in")
 
 -- | The lines of a table from a file: a drawing, or comma-separated values.
-fromFile :: DrawingPart -> Lines
-fromFile part@(DrawingPart file chosen unit within)
+fromFile :: DrawingReference -> Lines
+fromFile part@(DrawingReference file chosen unit within)
   | isNothing chosen && isNothing unit && isNothing within && isNothing (formatOf (value file)) =
     LinesFromFile file
   | otherwise = LinesFromDrawing part

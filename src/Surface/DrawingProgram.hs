@@ -110,7 +110,7 @@ tableText name circles =
     <> ["}"]
   where
     row (Circle c r) =
-      let Mm d = times 2 r in Text.unwords (map Decimal.exact [Vec.x c, Vec.y c, d])
+      let Mm d = times 2 r in Text.unwords (map (expressionText . DrawnContour.size nowhere Nothing) [Vec.x c, Vec.y c, d])
 
 -- | Lines of text, each first one of an entity with a comment that names it.
 commented :: [(Entity, Text)] -> [Text]

@@ -6,7 +6,7 @@ module Surface.DrawnContour
   ( items,
     closure,
     point,
-    number,
+    size,
   )
 where
 
@@ -20,6 +20,7 @@ import Data.List.NonEmpty qualified as NonEmpty
 import Data.Text (Text)
 import Drawing.Drawing (Ellipse (..), Piece (..), Spline (..))
 import Drawing.Outline (DrawnPart (..), Outline (..))
+import Drawing.OutlineTolerance qualified as Tolerance
 import Drawing.PathPart qualified as PathPart
 import Geometry.Polyarc (Ends (..))
 import Geometry.Segment (Segment (..))
@@ -67,7 +68,7 @@ wholeElement at unit piece = case piece of
     ]
   _ -> betweenEnds at unit piece
   where
-    long (Mm v) = number at unit v
+    long (Mm v) = size at unit v
 
 -- | The element between the ends of a piece; none for a line.
 betweenEnds :: Region -> Maybe Unit -> Piece -> [(Maybe Surface.Sense, Expr)]
@@ -76,7 +77,7 @@ betweenEnds at unit piece = case piece of
   Plain (Arc begin _ centre (Rad sweep)) ->
     let Mm r = Segment.radius centre begin
         sense = if sweep > 0 then Surface.CounterClockwise else Surface.Clockwise
-     in [(Just sense, call at "circle" [point at unit centre, number at unit r])]
+     in [(Just sense, call at "circle" [point at unit centre, size at unit r])]
   _ -> [(Nothing, curveOf at unit piece)]
 
 -- | The call that makes the curve of a piece.
@@ -85,7 +86,7 @@ curveOf at unit piece = case piece of
   Plain s -> call at "line" [point at unit (Segment.start s), point at unit (Segment.end s)]
   EllipseArc Ellipse {middle, major = Mm a, minor = Mm b, direction = Rad turned} from to ->
     call at "ellipse" $
-      [point at unit middle, number at unit a, number at unit b]
+      [point at unit middle, size at unit a, size at unit b]
         <> map (radians at) [turned, from, to]
   Bezier points weights' -> call at "bezier" (listOf points : map plainList (toList weights'))
   BSpline Spline {degree, knots, controls, weights} ->
@@ -101,7 +102,14 @@ curveOf at unit piece = case piece of
 
 -- | A point, from a position in mm.
 point :: Region -> Maybe Unit -> Point -> Expr
-point at unit p = Located at (Pair (number at unit (Vec.x p)) (number at unit (Vec.y p)))
+point at unit p = Located at (Pair (size at unit (Vec.x p)) (size at unit (Vec.y p)))
+
+-- | A length in mm, rounded to 'Tolerance.decimals'.
+size :: Region -> Maybe Unit -> Double -> Expr
+size at unit v = number at unit (if abs v < 1e5 then fromIntegral rounded / scale else v)
+  where
+    scale = 10 ^ Tolerance.decimals :: Double
+    rounded = round (v * scale) :: Int
 
 -- | A number that is read as exactly the same value.
 number :: Region -> Maybe Unit -> Double -> Expr

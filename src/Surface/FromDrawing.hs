@@ -308,7 +308,7 @@ tableLines text file chosen =
     heading word = Heading (Located file (Name word)) Nothing
     row at c r =
       let Mm d = times 2 r
-          cell = ValueCell . DrawnContour.number at (Just Millimetre)
+          cell = ValueCell . DrawnContour.size at (Just Millimetre)
        in Entries (fmap cell (Vec.x c :| [Vec.y c, d]))
 
 -- | The circle of a closed outline that consists of arcs of one circle.

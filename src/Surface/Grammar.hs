@@ -29,7 +29,7 @@ import Report.Report (quote)
 import Surface.Combinator
 import Surface.Combinator.Fast (FastParser)
 import Surface.Combinator.Fast qualified as FastCombinator
-import Surface.DrawingGrammar (drawingPart, fromFile)
+import Surface.DrawingGrammar (drawingReference, fromFile)
 import Surface.Error (Enclosure (..))
 import Surface.HoleForm qualified as HoleForm
 import Surface.HoleGrammar (cutter, hole)
@@ -90,7 +90,7 @@ statementForms =
     ("let", definition),
     ("param", Param <$> name <* symbol "=" <*> expr),
     ("contour", contour),
-    ("contours", Drawn AllOutlines <$> name <* keyword "from" <*> drawingPart number),
+    ("contours", Drawn AllOutlines <$> name <* keyword "from" <*> drawingReference number),
     ("table", Table <$> name <*> lines'),
     ("curve", Curve <$> name <* symbol "=" <*> expr),
     ("piece", piece),
@@ -195,7 +195,7 @@ contour = do
   what <- name
   drawn what <|> written what
   where
-    drawn what = keyword "from" *> (Drawn OneOutline what <$> drawingPart number)
+    drawn what = keyword "from" *> (Drawn OneOutline what <$> drawingReference number)
     written what = do
       closure <- located ((Closed <$ keyword "closed") <|> (Open <$ keyword "open"))
       Contour what closure <$> block (ContourBlock (Name.text (value what))) BrokenItem item
@@ -203,7 +203,7 @@ contour = do
 -- | The lines of a table in braces, or the name of a file, with a part of it if it is a drawing.
 lines' :: Parser Lines
 lines' =
-  (fromFile <$> (keyword "from" *> drawingPart number))
+  (fromFile <$> (keyword "from" *> drawingReference number))
     <|> (WrittenLines <$> block TableBlock (const BrokenLine) line)
 
 -- | A line of a table: one or more headings, or one or more cells. Their counts are not compared.

@@ -34,7 +34,7 @@ import Surface.FromDrawing (Converted (..), DrawingText (drawing))
 import Surface.FromDrawing qualified as FromDrawing
 import Surface.Parser qualified as Parser
 import Surface.Syntax
-  ( DrawingPart (..),
+  ( DrawingReference (..),
     Lines (..),
     Program (..),
     Statement,
@@ -206,7 +206,7 @@ fromDrawing ::
   Monad m =>
   Reader m ->
   Chain ->
-  DrawingPart ->
+  DrawingReference ->
   (DrawingText -> Region -> (Mm, [Entity]) -> Converted a) ->
   StateT Progress m (Maybe a)
 fromDrawing reader chain part make = do
@@ -235,7 +235,7 @@ recorded Converted {mistakes, notes, given} = do
 -- | The drawing that a part of a drawing names, by its path. It is read once for each unit that
 -- statements give it. Records its mistakes and remarks; 'Nothing' if it cannot be read.
 drawingText ::
-  Monad m => Reader m -> DrawingPart -> FilePath -> StateT Progress m (Maybe DrawingText)
+  Monad m => Reader m -> DrawingReference -> FilePath -> StateT Progress m (Maybe DrawingText)
 drawingText reader part path = do
   known <- gets (Map.lookup key . drawings)
   case known of

@@ -121,9 +121,9 @@ statement comments indent (Located _ s) = case s of
       (Text ("contour " <> name <> " " <> closureName closure))
       (concatMap (item comments (indent + 2)) items)
   Drawn outlines (Located _ (Name name)) part ->
-    plain (spaced (Text (drawnWord outlines <> " " <> name) : drawingPart comments part))
+    plain (spaced (Text (drawnWord outlines <> " " <> name) : drawingReference comments part))
   Table (Located _ (Name name)) (LinesFromDrawing part) ->
-    plain (spaced (Text ("table " <> name) : drawingPart comments part))
+    plain (spaced (Text ("table " <> name) : drawingReference comments part))
   Table (Located _ (Name name)) (LinesFromFile (Located _ file)) ->
     plain (Text ("table " <> name <> " from " <> quoted file))
   Table (Located _ (Name name)) (WrittenLines ls) ->
@@ -405,8 +405,8 @@ drawnWord outlines = case outlines of
   AllOutlines -> "contours"
 
 -- | A part of a drawing, from the word @from@ on.
-drawingPart :: CommentPositions -> DrawingPart -> [Doc]
-drawingPart comments (DrawingPart (Located _ file) chosen unit within) =
+drawingReference :: CommentPositions -> DrawingReference -> [Doc]
+drawingReference comments (DrawingReference (Located _ file) chosen unit within) =
   [Text ("from " <> quoted file)]
     <> [ Text $ case choice of
            OnLayer name -> "layer " <> quoted name

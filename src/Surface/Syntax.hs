@@ -37,7 +37,7 @@ module Surface.Syntax
     Sense (..),
     Lines (..),
     DrawnOutlines (..),
-    DrawingPart (..),
+    DrawingReference (..),
     DrawingSelection (..),
     TableLine,
     TableLine_ (..),
@@ -128,7 +128,7 @@ data Statement_
     Contour (Located Name) (Located Closure) [Item]
   | -- | @contour edge from "stand.dxf" layer "CUT"@: one outline of a drawing, and
     -- @contours parts from "stand.dxf" layer "CUT"@: all of them, as a region
-    Drawn DrawnOutlines (Located Name) DrawingPart
+    Drawn DrawnOutlines (Located Name) DrawingReference
   | -- | @table profile { x y … }@ and @table profile from "profile.csv"@
     Table (Located Name) Lines
   | -- | @curve skin = spline(profile)@
@@ -331,7 +331,7 @@ data Lines
   | -- | the name of a file of comma-separated values
     LinesFromFile (Located Text)
   | -- | the circles of a drawing
-    LinesFromDrawing DrawingPart
+    LinesFromDrawing DrawingReference
   deriving stock (Eq, Show)
 
 -- | The outlines of a drawing that a statement takes.
@@ -343,7 +343,7 @@ data DrawnOutlines
   deriving stock (Eq, Show)
 
 -- | A part of a drawing: @"stand.dxf" layer "CUT" unit mm within 0.01@.
-data DrawingPart = DrawingPart
+data DrawingReference = DrawingReference
   { drawingFile :: Located Text,
     -- | absent if the whole drawing is meant
     selection :: Maybe (Located DrawingSelection),

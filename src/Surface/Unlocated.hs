@@ -49,7 +49,7 @@ statement s = case s of
   LetFunction name parameters e -> LetFunction (here name) (fmap here parameters) (expr e)
   Param name e -> Param (here name) (expr e)
   Contour name closure items -> Contour (here name) (here closure) (map (unlocated item) items)
-  Drawn outlines name part -> Drawn outlines (here name) (drawingPart part)
+  Drawn outlines name part -> Drawn outlines (here name) (drawingReference part)
   Table name ls -> Table (here name) (lines' ls)
   Curve name e -> Curve (here name) (expr e)
   Piece name e cs side joggles ->
@@ -93,12 +93,12 @@ command spin = case spin of
 lines' :: Lines -> Lines
 lines' ls = case ls of
   LinesFromFile file -> LinesFromFile (here file)
-  LinesFromDrawing part -> LinesFromDrawing (drawingPart part)
+  LinesFromDrawing part -> LinesFromDrawing (drawingReference part)
   WrittenLines written -> WrittenLines (concatMap line written)
 
-drawingPart :: DrawingPart -> DrawingPart
-drawingPart (DrawingPart file chosen unit within) =
-  DrawingPart (here file) (here <$> chosen) (here <$> unit) (expr <$> within)
+drawingReference :: DrawingReference -> DrawingReference
+drawingReference (DrawingReference file chosen unit within) =
+  DrawingReference (here file) (here <$> chosen) (here <$> unit) (expr <$> within)
 
 line :: TableLine -> [TableLine]
 line (Located _ l) = map (Located nowhere) $ case l of
