@@ -1,7 +1,7 @@
 -- | Cubic Bézier curves of the plane. A curve with the control points p₀ to p₃ has the point
 -- @(1−t)³·p₀ + 3·(1−t)²·t·p₁ + 3·(1−t)·t²·p₂ + t³·p₃@ at the parameter t from 0 to 1.
 module Export.Bezier
-  ( Bezier (..),
+  ( CubicBezier (..),
     fromSpan,
     alongArc,
     start,
@@ -21,28 +21,56 @@ import Data.List (minimumBy)
 import Data.List.NonEmpty (NonEmpty (..))
 import Data.Ord (comparing)
 import Geometry.Curve.Span (Span (..))
+import Geometry.Curve.Span qualified as Span
 import Geometry.Curve.Spline (Cubic (..))
 import Geometry.Index.BoundingBox qualified as BoundingBox
+import Geometry.Numeric.TaylorExpansion qualified as TaylorExpansion
 import Geometry.Segment (Segment (Arc, Straight))
 import Geometry.Segment qualified as Segment
 import Geometry.Vec (Point)
 import Geometry.Vec qualified as Vec
 
 -- | The four control points, in mm.
-data Bezier = Bezier Point Point Point Point
+data CubicBezier = CubicBezier Point Point Point Point
   deriving stock (Eq, Show)
 
 -- | The curves of a span. A span of cubics is one curve, exactly. An arc is within @tolerance@ of
 -- its curves.
-fromSpan :: Mm -> Span -> NonEmpty Bezier
+fromSpan :: Mm -> Span -> NonEmpty CubicBezier
 fromSpan tolerance s = case s of
   Polynomial x y ->
     let (x0, x1, x2, x3) = controls x
         (y0, y1, y2, y3) = controls y
-     in Bezier (Vec.point x0 y0) (Vec.point x1 y1) (Vec.point x2 y2) (Vec.point x3 y3) :| []
+     in CubicBezier (Vec.point x0 y0) (Vec.point x1 y1) (Vec.point x2 y2) (Vec.point x3 y3) :| []
   Round arc -> alongArc tolerance (Mm 0) arc
+  Controlled _ -> alongSpan tolerance s
   where
     controls (Cubic a b c d) = (a, a + b / 3, a + (2 * b + c) / 3, a + b + c + d)
+
+-- | Curves along a span of any kind, within @tolerance@ of it. Each has the points and the
+-- derivatives of the span at both ends of an interval. An interval is halved until the curve and
+-- the span are near to each other at three parameters between the ends.
+alongSpan :: Mm -> Span -> NonEmpty CubicBezier
+alongSpan (Mm tolerance) s = go mostHalvings 0 1
+  where
+    go :: Int -> Double -> Double -> NonEmpty CubicBezier
+    go remaining a b
+      | remaining <= 0 || all isNear [0.25, 0.5, 0.75] = curve :| []
+      | otherwise = go (remaining - 1) a middle <> go (remaining - 1) middle b
+      where
+        middle = (a + b) / 2
+        curve = CubicBezier p (handle (1 / 3) p v) (handle (-1 / 3) q w) q
+        (p, v) = node a
+        (q, w) = node b
+        handle share from velocity = Vec.shift (Vec.scale (share * (b - a)) velocity) from
+        isNear t =
+          Vec.distance (at t curve) (fst (node (a + t * (b - a)))) <= Mm (tolerance / 2)
+    node t =
+      let e = Span.expansion 1 s t in (TaylorExpansion.position e, TaylorExpansion.velocity e)
+
+-- | The largest count of successive halvings of an interval.
+mostHalvings :: Int
+mostHalvings = 20
 
 -- | Curves along a segment, of equal lengths. Each end of a curve lies on the segment, and so does
 -- the tangent there. Between them the curve is within @tolerance@ of the segment. The height along
@@ -53,9 +81,9 @@ fromSpan tolerance s = case s of
 -- @4/27·r·sin⁶(φ\/4)\/cos²(φ\/4)@ (Goldapp, "Approximation of circular arcs by cubic polynomials").
 -- The angle at the parameter t differs from t·φ by about @φ³\/48·t·(1−t)·(1−2t)@, which is at most
 -- @φ³\/498@.
-alongArc :: Mm -> Mm -> Segment -> NonEmpty Bezier
+alongArc :: Mm -> Mm -> Segment -> NonEmpty CubicBezier
 alongArc (Mm tolerance) (Mm rise) s = case s of
-  Straight p q -> Bezier p (Vec.interpolate (1 / 3) p q) (Vec.interpolate (2 / 3) p q) q :| []
+  Straight p q -> CubicBezier p (Vec.interpolate (1 / 3) p q) (Vec.interpolate (2 / 3) p q) q :| []
   Arc {Segment.centre, Segment.sweep = Rad sweep} ->
     let Mm r = Segment.radius centre (Segment.start s)
         inPlane = 4 * (3 * tolerance / max tolerance r) ** (1 / 6)
@@ -67,64 +95,64 @@ alongArc (Mm tolerance) (Mm rise) s = case s of
         piece k =
           let (p, q) = (node k, node (k + 1 :: Int))
               along sign m = Vec.shift (Vec.scale (sign * handle) (Vec.left (Vec.to centre m))) m
-           in Bezier p (along 1 p) (along (-1) q) q
+           in CubicBezier p (along 1 p) (along (-1) q) q
      in piece 0 :| map piece [1 .. count - 1]
 
 -- | The first point.
-start :: Bezier -> Point
-start (Bezier p _ _ _) = p
+start :: CubicBezier -> Point
+start (CubicBezier p _ _ _) = p
 
 -- | The last point.
-end :: Bezier -> Point
-end (Bezier _ _ _ q) = q
+end :: CubicBezier -> Point
+end (CubicBezier _ _ _ q) = q
 
 -- | The point at a parameter.
-at :: Double -> Bezier -> Point
-at t (Bezier a b c d) = mix (mix ab bc) (mix bc cd)
+at :: Double -> CubicBezier -> Point
+at t (CubicBezier a b c d) = mix (mix ab bc) (mix bc cd)
   where
     mix = Vec.interpolate t
     (ab, bc, cd) = (mix a b, mix b c, mix c d)
 
 -- | True if both inner control points lie where those of a straight line at constant speed lie, but
 -- for rounding.
-isStraight :: Bezier -> Bool
-isStraight (Bezier a b c d) = near b (1 / 3) && near c (2 / 3)
+isStraight :: CubicBezier -> Bool
+isStraight (CubicBezier a b c d) = near b (1 / 3) && near c (2 / 3)
   where
     near p t = let Mm e = Vec.distance p (Vec.interpolate t a d) in e <= 1e-12 * (1 + size)
     Mm size = Vec.distance a d
 
 -- | The curve in the opposite direction.
-reversed :: Bezier -> Bezier
-reversed (Bezier a b c d) = Bezier d c b a
+reversed :: CubicBezier -> CubicBezier
+reversed (CubicBezier a b c d) = CubicBezier d c b a
 
 -- | The part of a curve between two parameters, by the algorithm of de Casteljau.
-between :: Double -> Double -> Bezier -> Bezier
+between :: Double -> Double -> CubicBezier -> CubicBezier
 between t u = tailFrom . headTo u
   where
     tailFrom = if u > 0 then reversed . headTo (1 - t / u) . reversed else id
 
 -- | The part of a curve up to a parameter.
-headTo :: Double -> Bezier -> Bezier
-headTo t curve@(Bezier a b c _)
+headTo :: Double -> CubicBezier -> CubicBezier
+headTo t curve@(CubicBezier a b c _)
   | t >= 1 = curve
-  | otherwise = Bezier a ab (mix ab bc) (at t curve)
+  | otherwise = CubicBezier a ab (mix ab bc) (at t curve)
   where
     mix = Vec.interpolate t
     (ab, bc) = (mix a b, mix b c)
 
 -- | The curve with another first point.
-withStart :: Point -> Bezier -> Bezier
-withStart p (Bezier _ b c d) = Bezier p b c d
+withStart :: Point -> CubicBezier -> CubicBezier
+withStart p (CubicBezier _ b c d) = CubicBezier p b c d
 
 -- | The curve with another last point.
-withEnd :: Point -> Bezier -> Bezier
-withEnd p (Bezier a b c _) = Bezier a b c p
+withEnd :: Point -> CubicBezier -> CubicBezier
+withEnd p (CubicBezier a b c _) = CubicBezier a b c p
 
 -- | The parameter of the point of a curve that is nearest to the point @p@, and their distance; it
 -- is found from the nearest of nine points by Newton's method. Nothing if the curve is further than
 -- @reach@ from the point.
-nearest :: Mm -> Point -> Bezier -> Maybe (Double, Mm)
-nearest reach p curve@(Bezier a b c d)
+nearest :: Mm -> Point -> CubicBezier -> Maybe (Double, Mm)
+nearest reach p curve@(CubicBezier a b c d)
   | BoundingBox.distance p box > reach = Nothing
   | snd found <= reach = Just found
   | otherwise = Nothing

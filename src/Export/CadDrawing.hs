@@ -15,7 +15,7 @@ import Base.Quantity (LengthUnit, Mm (..), Rad (..))
 import Data.List.NonEmpty (NonEmpty (..))
 import Data.List.NonEmpty qualified as NonEmpty
 import Data.Text (Text)
-import Export.Bezier (Bezier (..))
+import Export.Bezier (CubicBezier (..))
 import Export.Tolerance qualified as Tolerance
 import Geometry.Carrier (Circle (Circle))
 import Geometry.Index.BoundingBox (BoundingBox)
@@ -54,7 +54,7 @@ data OutlinePiece
   = -- | lines and arcs
     Chain (NonEmpty Segment)
   | -- | a curve
-    Smooth (NonEmpty Bezier)
+    Smooth (NonEmpty CubicBezier)
   deriving stock (Eq, Show)
 
 -- | The kinds of objects.
@@ -119,4 +119,5 @@ extent objects = case concatMap (boxes . form) objects of
       NodeMark _ p _ -> [BoundingBox.ofPoints p []]
     piece p = case p of
       Chain segments -> map BoundingBox.around (NonEmpty.toList segments)
-      Smooth curves -> [BoundingBox.ofPoints a [b, c, d] | Bezier a b c d <- NonEmpty.toList curves]
+      Smooth curves ->
+        [BoundingBox.ofPoints a [b, c, d] | CubicBezier a b c d <- NonEmpty.toList curves]

@@ -11,7 +11,7 @@ import Data.Containers.ListUtils (nubOrd)
 import Data.List.NonEmpty (NonEmpty (..))
 import Data.List.NonEmpty qualified as NonEmpty
 import Data.Text (Text)
-import Export.Bezier (Bezier (..))
+import Export.Bezier (CubicBezier (..))
 import Export.Bezier qualified as Bezier
 import Export.CadDrawing
   ( CadForm (..),
@@ -184,7 +184,7 @@ arcGroups scale z segment = case segment of
 -- own number at both ends, which counts three times between two curves and four times at the ends
 -- of the spline; so the spline consists of exactly these curves. The height rises in proportion to
 -- the parameter.
-spline :: Scale -> Bool -> NonEmpty Bezier -> (Mm, Mm) -> (Text, [DxfGroup])
+spline :: Scale -> Bool -> NonEmpty CubicBezier -> (Mm, Mm) -> (Text, [DxfGroup])
 spline scale isPlanar curves (Mm low, Mm high) =
   ( "SPLINE",
     [ word 100 "AcDbSpline",
@@ -204,5 +204,5 @@ spline scale isPlanar curves (Mm low, Mm high) =
     count = length curves
     controls =
       Bezier.start (NonEmpty.head curves) :
-      concat [[b, c, d] | Bezier _ b c d <- NonEmpty.toList curves]
+      concat [[b, c, d] | CubicBezier _ b c d <- NonEmpty.toList curves]
     knots = 0 : concat [replicate 3 (fromIntegral k) | k <- [0 .. count]] <> [fromIntegral count]

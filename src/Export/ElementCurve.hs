@@ -16,7 +16,7 @@ import Data.Map.Strict qualified as Map
 import Data.Maybe (isJust, listToMaybe, mapMaybe)
 import Data.Semigroup (sconcat)
 import Data.Vector qualified as Vector
-import Export.Bezier (Bezier)
+import Export.Bezier (CubicBezier)
 import Export.Bezier qualified as Bezier
 import Export.Tolerance qualified as Tolerance
 import Geometry.Curve (Curve)
@@ -37,7 +37,7 @@ import Part.Part qualified as Part
 newtype ElementCurves = ElementCurves (Map Region [Pieces])
 
 -- | The cubic curves of an element in its direction, and true if they end where they begin.
-data Pieces = Pieces {cubics :: NonEmpty Bezier, isClosed :: Bool}
+data Pieces = Pieces {cubics :: NonEmpty CubicBezier, isClosed :: Bool}
 
 -- | The curves of the elements of contours. A curve that consists of lines and arcs is left out,
 -- because its contour has the same lines and arcs.
@@ -59,7 +59,7 @@ ofContours contours =
 
 -- | The cubic curves of a curve. Nothing if it consists of lines and arcs only, or if
 -- 'Curve.cubics' finds no cubics for a shifted curve.
-piecesOf :: Curve -> Maybe (NonEmpty Bezier)
+piecesOf :: Curve -> Maybe (NonEmpty CubicBezier)
 piecesOf curve
   | isJust (Curve.toSegments curve) = Nothing
   | Just (_, xs, ys) <- Curve.cubics Tolerance.cubic curve =
@@ -73,7 +73,7 @@ piecesOf curve
 -- end of the last one. @at@ is the region of the element. Nothing if the element has no curve, or
 -- if its curve does not pass through the ends and the middles of all segments, because the contour
 -- was transformed.
-along :: ElementCurves -> Region -> NonEmpty Segment -> Maybe (NonEmpty Bezier)
+along :: ElementCurves -> Region -> NonEmpty Segment -> Maybe (NonEmpty CubicBezier)
 along (ElementCurves known) at segments =
   listToMaybe (mapMaybe (partAlong nodes) (Map.findWithDefault [] at known))
   where
@@ -83,7 +83,7 @@ along (ElementCurves known) at segments =
 
 -- | The part of a curve between the first and the last node, if the curve passes through all nodes
 -- in their order or in the opposite one.
-partAlong :: [Point] -> Pieces -> Maybe (NonEmpty Bezier)
+partAlong :: [Point] -> Pieces -> Maybe (NonEmpty CubicBezier)
 partAlong nodes pieces =
   listToMaybe (mapMaybe (partForwards nodes) [pieces, backwards])
   where
@@ -91,7 +91,7 @@ partAlong nodes pieces =
 
 -- | The part of a curve between the first and the last node, if it passes through all of them in
 -- their order. In a closed curve the part may lead over the end of the curve.
-partForwards :: [Point] -> Pieces -> Maybe (NonEmpty Bezier)
+partForwards :: [Point] -> Pieces -> Maybe (NonEmpty CubicBezier)
 partForwards nodes Pieces {cubics, isClosed} = do
   found <- traverse (position Tolerance.onCurve numbered) nodes
   let begin = onSeam 0 (listToMaybe found)
@@ -123,7 +123,7 @@ partForwards nodes Pieces {cubics, isClosed} = do
 
 -- | The parameter of a point on numbered curves: the number of a curve, and the parameter along it.
 -- Nothing if none of the curves passes through the point.
-position :: Mm -> [(Double, Bezier)] -> Point -> Maybe Double
+position :: Mm -> [(Double, CubicBezier)] -> Point -> Maybe Double
 position reach numbered p =
   fst <$> foldl nearer Nothing found
   where
@@ -133,7 +133,7 @@ position reach numbered p =
       _ -> Just new
 
 -- | The curves with the first and the last node as their ends, so that they join their neighbours.
-withEnds :: [Point] -> NonEmpty Bezier -> NonEmpty Bezier
+withEnds :: [Point] -> NonEmpty CubicBezier -> NonEmpty CubicBezier
 withEnds nodes (first :| others) = case nodes of
   [] -> first :| others
   begin : _ -> ending (Bezier.withStart begin first :| others)

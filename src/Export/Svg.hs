@@ -16,7 +16,7 @@ import Data.Maybe (fromMaybe)
 import Data.Text (Text)
 import Data.Text qualified as Text
 import Data.Text.Lazy qualified as Lazy
-import Export.Bezier (Bezier (..))
+import Export.Bezier (CubicBezier (..))
 import Export.Bezier qualified as Bezier
 import Export.CadDrawing
   ( CadDrawing (..),
@@ -182,7 +182,7 @@ pieceData :: OutlinePiece -> Text
 pieceData piece = case piece of
   Chain segments -> foldMap segmentData segments
   Smooth curves ->
-    mconcat ["C" <> Text.unwords (map pointData [b, c, d]) | Bezier _ b c d <- toList curves]
+    mconcat ["C" <> Text.unwords (map pointData [b, c, d]) | CubicBezier _ b c d <- toList curves]
 
 -- | The data of a line, or of the arcs into which a segment is divided: each of them sweeps at most
 -- 120°. SVG gives an arc by its ends and its radius, from which the centre of half a circle follows

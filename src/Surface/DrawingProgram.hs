@@ -110,7 +110,8 @@ tableText name circles =
     <> ["}"]
   where
     row (Circle c r) =
-      let Mm d = times 2 r in Text.unwords (map (expressionText . DrawnContour.size nowhere Nothing) [Vec.x c, Vec.y c, d])
+      let Mm d = times 2 r in Text.unwords (map sizeText [Vec.x c, Vec.y c, d])
+    sizeText = expressionText . DrawnContour.size nowhere Nothing
 
 -- | Lines of text, each first one of an entity with a comment that names it.
 commented :: [(Entity, Text)] -> [Text]

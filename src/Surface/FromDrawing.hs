@@ -84,13 +84,14 @@ fromBytes (Located at name) stated (begin, shown) content = case formatOf name o
     bad e =
       BadDrawing
         (regionOfLine (FileError.line e))
-        (FileError.title e)
+        (lowered (FileError.title e))
         [FileError.message e]
         (FileError.hints e)
     isEntity n =
       formatOf name == Just Dxf
         && fmap (Text.strip . snd) (lines' Vector.!? (n - 1)) == Just "0"
     lines' = Vector.fromList (Region.numbered shown)
+    lowered t = Text.toLower (Text.take 1 t) <> Text.drop 1 t
     -- An entity of a DXF file begins with the line 0; its word is in the next line.
     regionOfLine n = case if isEntity n then lines' Vector.!? n else lines' Vector.!? (n - 1) of
       Just (offset, text) ->
@@ -207,7 +208,8 @@ contours text at file asked name (tolerance, chosen) = case asked of
     [] -> result [NoOutline file] []
     first : more -> case [o | o <- first : more, ends o == Polyarc.Open] of
       [] -> result [] (asRegion at name contourOf (first : more))
-      open -> result (map openFault open) []
+      -- Where ends are not joined because of a fault, outlines are open.
+      open -> result (if null (faults joining) then map openFault open else []) []
   where
     joining = Outline.joined tolerance chosen
     result found made =

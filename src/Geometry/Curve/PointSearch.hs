@@ -116,8 +116,8 @@ distanceSlope p curve stretch u
     acceleration = Vec.vec (2 * PowerSeries.coefficient 2 x) (2 * PowerSeries.coefficient 2 y)
 
 -- | Velocity at the parameter @u@ of a stretch, in mm per unit of the parameter, by the expansion
--- of the curve there. Where it is 0, as at the end of a span with two equal control points, the result
--- is a vector of the same direction.
+-- of the curve there. Where it is 0, as at the end of a span with two equal control points, the
+-- result is a vector of the same direction.
 forwards :: (Double, Double) -> Curve -> Double -> TaylorExpansion -> Vec
 forwards stretch curve u expansion
   | Mm (Vec.norm v) > Tolerance.stationary = v

@@ -1,0 +1,142 @@
+-- | Laws of outlines: entities in any order and direction, gaps, branches, overlaps and repeated
+-- entities.
+module Drawing.OutlineSpec
+  ( spec,
+  )
+where
+
+import Base.Quantity (Mm (..), Rad (..))
+import Data.List (sort)
+import Data.List.NonEmpty (NonEmpty (..))
+import Data.List.NonEmpty qualified as NonEmpty
+import Drawing.Drawing (Entity (..), Piece (..), Shape (..))
+import Drawing.Nesting qualified as Nesting
+import Drawing.Outline (ClosedGap (..), DrawnPart (..), JoinFault (..), Joining (..), Outline (..))
+import Drawing.Outline qualified as Outline
+import Drawing.OutlineTolerance qualified as Tolerance
+import Drawing.PathPart qualified as PathPart
+import Geometry.Carrier (Circle (Circle))
+import Geometry.Polyarc (Ends (..))
+import Geometry.Segment (Segment (Straight))
+import Geometry.Segment qualified as Segment
+import Geometry.Vec (Point)
+import Geometry.Vec qualified as Vec
+import Test.Hspec
+import Test.QuickCheck
+
+spec :: Spec
+spec = do
+  it
+    "lines and arcs in any order and direction make the outlines from which they come (catches \
+    \chains that are joined without being reversed)"
+    $ property $
+      forAll (choose (1, 4) >>= traverse ring . enumFromTo 1) $ \rings ->
+        forAll (mixed (concat rings)) $ \entities ->
+          let Joining {outlines, gaps, repeated, faults} = Outline.joined Tolerance.joining entities
+           in conjoin
+                [ map ends outlines === map (const Closed) rings,
+                  sort (map (cornersOf . pieces) outlines)
+                    === sort (map (sort . map (coordinates . PathPart.start)) rings),
+                  counterexample (show (gaps, faults)) (null gaps && null faults && null repeated)
+                ]
+  it
+    "ends are joined up to the distance, each gap is told with its width, and pieces follow one \
+    \another exactly (catches gaps that are closed silently)"
+    $ property $
+      forAll (ring 1) $ \pieces' ->
+        forAll (elements [0.004, 0.009, 0.011, 0.02]) $ \gap ->
+          let moved = case pieces' of
+                Plain (Straight p q) : more -> Plain (Straight (beside gap p) q) : more
+                _ -> pieces'
+              Joining {outlines, gaps} = Outline.joined (Mm 0.01) (entitiesOf moved)
+           in isLine (take 1 pieces')
+                ==> if gap < 0.01
+                  then
+                    conjoin
+                      [ map ends outlines === [Closed],
+                        counterexample (show gaps) (map (isWide gap . width) gaps === [True]),
+                        conjoin (map follows outlines)
+                      ]
+                  else conjoin [map ends outlines === [Open], gaps === []]
+  it
+    "a third end at a joint, a piece along another one and a repeated entity are found (catches \
+    \faults that are looked for at ends only)"
+    $ property $
+      forAll (ring 1) $ \pieces' ->
+        forAll (choose (0, length pieces' - 1)) $ \k ->
+          let chosen = pieces' !! k
+              corner = PathPart.start chosen
+              spur = Plain (Straight corner (beside 500 corner))
+              part = Plain (Segment.between 0.2 0.7 (segmentOf chosen))
+              foundWith more = Outline.joined Tolerance.joining (entitiesOf (pieces' <> more))
+           in conjoin
+                [ counterexample "branch" (any isBranch (faults (foundWith [spur]))),
+                  counterexample "overlap" (any isOverlap (faults (foundWith [part]))),
+                  counterexample "repeated" $
+                    let j = foundWith [PathPart.reversed chosen]
+                     in (length (repeated j), length (faults j)) === (1, 0)
+                ]
+  it "the depth of an outline is the count of those around it (catches an outline in itself)" $
+    property $
+      forAll (vectorOf 6 (elements [0, 1])) $ \places ->
+        let -- Circles about two centres, the larger ones around the smaller ones.
+            circles =
+              [ (place :: Int, Entity k "CIRCLE" "" [] [] (FullCircle circle))
+                | (k, place) <- zip [1 ..] places,
+                  let circle = Circle (centre place) (Mm (fromIntegral k))
+              ]
+            centre place = Vec.point (fromIntegral place * 100) 0
+            outer k p = length [() | (q, _) <- drop k circles, q == p]
+            expected = [outer k p | (k, (p, _)) <- zip [1 ..] circles]
+         in Nesting.depths (outlines (Outline.joined Tolerance.joining (map snd circles)))
+              === expected
+  where
+    isBranch f = case f of Branch _ _ -> True; Overlap {} -> False
+    isOverlap f = case f of Overlap {} -> True; Branch _ _ -> False
+    isLine ps = case ps of
+      [Plain (Straight _ _)] -> True
+      _ -> False
+    isWide gap (Mm w) = abs (w - gap) < 1e-9
+    beside d p = Vec.shift (Vec.vec (d * 0.6) (d * 0.8)) p
+    segmentOf p = case p of
+      Plain s -> s
+      _ -> error "not a segment"
+    follows o =
+      let list = NonEmpty.toList (fmap piece (pieces o))
+          starts = map PathPart.start list
+       in map PathPart.end list === drop 1 starts <> take 1 starts
+
+-- | The pieces of a ring of lines and arcs around (200·k, 0), each with an end at the next one.
+ring :: Int -> Gen [Piece]
+ring k = do
+  count <- choose (3, 9)
+  radii <- vectorOf count (choose (20, 60))
+  bulges <- vectorOf count (frequency [(1, pure 0), (1, choose (0.05, 0.2))])
+  let corner i r =
+        Vec.shift
+          (Vec.polar (Mm r) (toRad (2 * pi * fromIntegral i / fromIntegral count)))
+          (Vec.point (200 * fromIntegral k) 0)
+      corners = zipWith corner [0 :: Int ..] radii
+      side (p, q) b = Plain (if b == 0 then Straight p q else Segment.fromBulge p q b)
+  pure (zipWith side (zip corners (drop 1 corners <> take 1 corners)) bulges)
+  where
+    toRad = Rad
+
+-- | Entities of one piece each.
+entitiesOf :: [Piece] -> [Entity]
+entitiesOf ps = [Entity k "LINE" "" [] [] (Path Open (p :| [])) | (k, p) <- zip [1 ..] ps]
+
+-- | The pieces in a random order, each in a random direction, as entities.
+mixed :: [Piece] -> Gen [Entity]
+mixed ps = do
+  shuffled <- shuffle ps
+  turned <- traverse (\p -> elements [p, PathPart.reversed p]) shuffled
+  pure (entitiesOf turned)
+
+cornersOf :: NonEmpty DrawnPart -> [(Double, Double)]
+cornersOf = sort . map (coordinates . PathPart.start . piece) . NonEmpty.toList
+
+coordinates :: Point -> (Double, Double)
+coordinates p = (rounded (Vec.x p), rounded (Vec.y p))
+  where
+    rounded v = fromIntegral (round (v * 1e6) :: Int) / 1e6
