@@ -145,7 +145,10 @@ contours :: [(Text, ManualEntry)]
 contours =
   under
     "language.md#contours"
-    [("contour", "Defines a contour of the part by its elements.")]
+    [("contour", "Defines a contour of the part by its elements, or takes it from a drawing.")]
+    <> under
+      "drawing-files.md#in-a-program"
+      [("contours", "Takes all outlines of a drawing as a region.")]
     <> under
       "language.md#open-and-closed"
       [ ("open", "Makes a contour that begins and ends at its first and last element."),

@@ -28,9 +28,9 @@ import Checked.Syntax qualified as Checked
 import Compile (Analysis)
 import Compile qualified
 import Data.Bifunctor (first)
+import Data.ByteString.Char8 qualified as Char8
 import Data.Functor.Identity (Identity (..))
 import Data.List qualified as List
-import Data.ByteString.Char8 qualified as Char8
 import Data.Map.Strict qualified as Map
 import Data.Maybe qualified as Maybe
 import Data.Text (Text)

@@ -208,7 +208,7 @@ contours text at file asked name (tolerance, chosen) = case asked of
     [] -> result [NoOutline file] []
     first : more -> case [o | o <- first : more, ends o == Polyarc.Open] of
       [] -> result [] (asRegion at name contourOf (first : more))
-      -- Where ends are not joined because of a fault, outlines are open.
+      -- A fault at the ends leaves outlines open.
       open -> result (if null (faults joining) then map openFault open else []) []
   where
     joining = Outline.joined tolerance chosen

@@ -233,7 +233,8 @@ details = describe "details" $ do
     ]
       `shouldBe` [ "Line 7: ‘" <> Text.replicate 40 "x" <> "…’ has to be a number.",
                    "The drawing is nested too deeply",
-                   "State the unit in the program."
+                   "State the unit: write unit mm or unit in after the file, or --unit for partc \
+                   \import."
                  ]
   where
     drawn bytes = either (const []) entities (inMm bytes)
