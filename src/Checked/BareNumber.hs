@@ -203,6 +203,7 @@ typedExpressions s = case value s of
   Pocket e f _ settings -> (Nothing, e) : (Just Type.len, f) : concatMap typedSetting settings
   RestOf e f settings -> (Nothing, e) : (Just Type.len, f) : concatMap typedSetting settings
   Face e f settings -> (Nothing, e) : (Just Type.len, f) : concatMap typedSetting settings
+  Engrave text settings -> typedLettering text <> concatMap typedSetting settings
   Contour {} -> concatMap typedItem (SyntaxWalk.itemsOf s)
   LetValue _ _ -> []
   LetFunction {} -> []
@@ -211,6 +212,14 @@ typedExpressions s = case value s of
   where
     lengths = [(Just Type.len, e) | e <- SyntaxWalk.ofStatement s]
     typedHeights zs = [(Just Type.len, z) | Just (a, b) <- [zs], z <- [a, b]]
+
+typedLettering :: Lettering -> [(Maybe Type, Expr)]
+typedLettering Lettering {textPoint, textHeight, course} =
+  (Nothing, textPoint) :
+  (Just Type.len, textHeight) : case course of
+    Level -> []
+    Inclined e -> [(Just Type.angle, e)]
+    Around e _ -> [(Nothing, e)]
 
 typedItem :: Item -> [(Maybe Type, Expr)]
 typedItem i = case value i of

@@ -36,6 +36,7 @@ import Checked.Expression
 import Checked.Feed (cutFeed)
 import Checked.Inference (Infer)
 import Checked.Inference qualified as Inference
+import Checked.Lettering qualified as Lettering
 import Checked.Piece qualified as Piece
 import Checked.RequiredSetting qualified as RequiredSetting
 import Checked.Scheme (Binding (..))
@@ -194,6 +195,10 @@ statement env (Located at s) = case s of
     one (clearing env Checked.RestOf "rest" (expect env Type.Clearing e) stepover options)
   Surface.Face e stepover options ->
     one (clearing env Checked.Face "face" (outlined env e) stepover options)
+  Surface.Engrave text options ->
+    one $
+      (\text' o sol -> Checked.Engrave (text' sol) (o sol))
+        <$> Lettering.check env text <*> Settings.check env "engrave" options
   Surface.Drill points depth options ->
     one $ do
       (columns, points') <- pointOrPoints env points

@@ -104,6 +104,7 @@ machiningKeyword s = case s of
   Surface.Pocket {} -> "pocket"
   Surface.RestOf {} -> "rest"
   Surface.Face {} -> "face"
+  Surface.Engrave {} -> "engrave"
   Surface.Turn {} -> "turn"
   Surface.Drill {} -> "drill"
   Surface.Hole work _ _ _ _ -> HoleForm.word work
@@ -153,6 +154,7 @@ requirement s = case s of
   Surface.Pocket _ _ _ options -> none {keywordLength = 6, needed = milling <> forDepth options}
   Surface.RestOf {} -> none {needed = ClearanceSetting : milling}
   Surface.Face {} -> none {needed = ClearanceSetting : milling}
+  Surface.Engrave {} -> none {keywordLength = 7, needed = ClearanceSetting : milling}
   Surface.Turn {} -> none {needed = milling}
   Surface.Drill {} ->
     none {keywordLength = 5, needed = [ToolSetting, FeedSetting, FromSetting, ClearanceSetting]}

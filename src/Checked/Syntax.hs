@@ -23,6 +23,8 @@ module Checked.Syntax
     Joggle_ (..),
     Accuracy (..),
     Spin (..),
+    Engraving (..),
+    TextLine (..),
     Assertion (..),
     Settings (..),
     DescentForm (..),
@@ -53,6 +55,7 @@ module Checked.Syntax
     LeadForm (..),
     HoleWork (..),
     HoleSize (..),
+    TextAlignment (..),
     MachineRef (..),
     Operator (..),
     Rank (..),
@@ -87,6 +90,7 @@ import Surface.Syntax
     Sense (..),
     Side (..),
     Switch (..),
+    TextAlignment (..),
   )
 
 -- | A checked program.
@@ -158,6 +162,8 @@ data Statement_
     RestOf Expr Expr Settings
   | -- | the region to clear, the stepover in mm, and the settings
     Face Expr Expr Settings
+  | -- | the text, and the settings
+    Engrave Engraving Settings
   | Turn Expr (Located Side) Settings
   | -- | the point or the list of points, the depth in mm, and the settings
     Drill Expr Expr Settings
@@ -288,6 +294,26 @@ data Assertion
 -- | The order in which the holes of a statement are drilled: that of the program, or that of a
 -- short way.
 data VisitOrder = AsListed | Shortest
+  deriving stock (Eq, Show)
+
+-- | A text to be engraved: the text, the point to which it is aligned, and the height of its
+-- capitals in mm.
+data Engraving = Engraving
+  { engraved :: Located Text,
+    anchor :: Expr,
+    capitalHeight :: Expr,
+    textLine :: TextLine,
+    textAlignment :: TextAlignment
+  }
+  deriving stock (Eq, Show)
+
+-- | The line on which the letters of a text stand.
+data TextLine
+  = AlongX
+  | -- | a straight line in the direction of an angle
+    InDirection Expr
+  | -- | a circle; true if the letters stand inside it
+    OnCircle Expr Bool
   deriving stock (Eq, Show)
 
 -- | The settings in the block of a machining statement. Lengths are in mm, feeds in mm/min.

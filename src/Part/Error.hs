@@ -31,6 +31,8 @@ import Part.CurveError (CurveMistake)
 import Part.CurveError qualified as CurveError
 import Part.DescentError (DescentMisfit)
 import Part.DescentError qualified as DescentError
+import Part.EngravingError (EngravingMistake)
+import Part.EngravingError qualified as EngravingError
 import Part.ErrorText (alternatively)
 import Part.HoleError (HoleMistake)
 import Part.HoleError qualified as HoleError
@@ -61,7 +63,7 @@ data Error = Error
 
 -- | A mistake in a value, a statement or the geometry. The first field of a constructor is the
 -- region that the report points at, and its comment names the other fields in order. The last
--- eight constructors contain facts of other modules.
+-- nine constructors contain facts of other modules.
 data ValueFact
   = DivisionByZero Region
   | OutOfDomain Region Domain
@@ -113,6 +115,7 @@ data ValueFact
   | InConstruction ConstructionFault
   | InContour ContourFault
   | InCurve CurveMistake
+  | InEngraving EngravingMistake
   | InHole HoleMistake
   | InPocket PocketMisfit
   | InRegion RegionMistake
@@ -125,6 +128,7 @@ data CutterStatement
   | PocketStatement
   | RestStatement
   | FaceStatement
+  | EngraveStatement
   | DrillStatement
   | HoleStatement HoleWork
   deriving stock (Eq, Show)
@@ -288,6 +292,7 @@ factReport unit arguments fact = case fact of
   InCurve fault -> CurveError.toReport unit fault
   InHole fault -> HoleError.toReport unit fault
   InPocket fault -> PocketError.toReport unit fault
+  InEngraving fault -> EngravingError.toReport unit fault
   InRegion fault -> RegionError.toReport unit fault
   InBody fault -> BodyError.toReport unit fault
   InDescent fault -> DescentError.toReport unit fault
@@ -393,6 +398,7 @@ wrongCutterReport (Region begin _) statement kind =
       TurnStatement -> ("turn", "a turning tool", "change 2 turn(nose 0.4 mm)")
       PocketStatement -> ("pocket", "a mill", "change 2 mill(diameter 5 mm)")
       FaceStatement -> ("face", "a mill", "change 2 mill(diameter 50 mm)")
+      EngraveStatement -> ("engrave", "a mill", "change 2 mill(diameter 0.5 mm)")
       RestStatement -> ("rest", "a mill", "change 2 mill(diameter 5 mm)")
       DrillStatement -> ("drill", "a drill or a mill", "change 2 drill(diameter 5 mm)")
       HoleStatement work -> (HoleForm.word work, neededFor work, toolFor work)

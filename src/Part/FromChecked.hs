@@ -36,6 +36,7 @@ import Part.BodyError (BodyMistake (SafeBelowSolid))
 import Part.ContourElement qualified as ContourElement
 import Part.Curve (Fitting, PartCurve (..))
 import Part.CutFeed (SpindleRate (..))
+import Part.Engraving qualified as Engraving
 import Part.Error (Error (..), ValueFact (..))
 import Part.Evaluation (Eval)
 import Part.Evaluation qualified as Evaluation
@@ -227,6 +228,8 @@ step state (Located at s) = case s of
     keep
       (FaceMilling.facing now (highest . value <$> stock' state) at e stepover settings)
       (eachPerformed Pocket)
+  Checked.Engrave text settings ->
+    keep (Engraving.engraving now at text settings) (eachPerformed Mill)
   Checked.Turn e side settings ->
     keep (Machining.milling now Turned at e side settings) (eachPerformed Mill)
   Checked.Drill points depth settings ->

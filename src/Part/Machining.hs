@@ -406,6 +406,7 @@ checkCutter context at statement = case cutter context of
       PocketStatement -> cutterKind == MillingCutter
       RestStatement -> cutterKind == MillingCutter
       FaceStatement -> cutterKind == MillingCutter
+      EngraveStatement -> cutterKind `elem` [MillingCutter, ConeCutter]
       DrillStatement -> cutterKind `elem` [DrillingCutter, MillingCutter]
       HoleStatement work -> fitsHole work cutterKind
 

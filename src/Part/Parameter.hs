@@ -57,6 +57,8 @@ data LimitedQuantity
   | -- | the pitch of a thread, or the depth of one turn of a helix
     ThreadPitch
   | Allowance
+  | -- | the height of the capitals of a text
+    TextHeight
   | Chamfer
   | FilletRadius
   | -- | a width, a height, a radius or a module of a shape
@@ -112,6 +114,7 @@ name parameter = case parameter of
   HoleDiameter -> "the diameter of a hole"
   ThreadPitch -> "the pitch"
   Allowance -> "the allowance"
+  TextHeight -> "the height of the text"
   Chamfer -> "the chamfer"
   FilletRadius -> "the radius of a fillet"
   ShapeSize -> "a size of a shape"

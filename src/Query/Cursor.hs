@@ -226,7 +226,7 @@ braced parent = case reverse (heads parent) of
     Word "contour" -> level Items []
     Word "table" -> level TableLines []
     Word k
-      | k `elem` ["mill", "turn", "pocket", "rest", "face", "drill"] <> HoleForm.words' ->
+      | k `elem` ["mill", "turn", "pocket", "rest", "face", "engrave", "drill"] <> HoleForm.words' ->
         level (SettingsOf k) []
       | k == "for", n : _ <- rest, Word w <- shape n -> level inner [BoundName w (place n)]
     _ -> level inner []

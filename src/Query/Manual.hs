@@ -226,6 +226,14 @@ clearing =
       [ ("face", "Clears the surface of a region with parallel passes."),
         ("angle", "Gives the direction of the passes over a surface.")
       ]
+    <> under
+      "language.md#engraving"
+      [ ("engrave", "Engraves a text with letters of single strokes."),
+        ("direction", "Gives the direction of the line on which a text stands."),
+        ("around", "Lets the letters of a text stand on a circle."),
+        ("align", "Says which part of a text lies at its point."),
+        ("centre", "Puts the middle of a text at its point.")
+      ]
 
 -- | The works on holes.
 holes :: [(Text, ManualEntry)]

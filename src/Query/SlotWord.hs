@@ -99,6 +99,16 @@ clearingEntries keyword = case keyword of
   "rest" ->
     own (words' ["of"]) []
       <> [("of", (value Clearing, words' ["step"])), ("step", (value Type.len, []))]
+  "engrave" ->
+    [ (keyword, ([], words' ["at"])),
+      ("at", (value Type.aPoint, words' ["height"])),
+      ("height", (value Type.len, words' ["direction", "around", "align"])),
+      ("direction", (value Type.angle, words' ["align"])),
+      ("around", (value Circle, words' ["inside", "outside", "align"])),
+      ("inside", ([], words' ["align"])),
+      ("outside", ([], words' ["align"])),
+      ("align", (words' ["left", "centre", "right"], []))
+    ]
   _ -> commandEntries keyword
   where
     own follows after = [(keyword, (follows, after))]

@@ -21,7 +21,7 @@ import Data.Text qualified as Text
 import Query.RegionMap (RegionMap)
 import Query.RegionMap qualified as RegionMap
 import Query.Snapshot (Snapshot (..))
-import Surface.Syntax (Program (..), Statement, Statement_ (..))
+import Surface.Syntax (Lettering (lettered, textHeight), Program (..), Statement, Statement_ (..))
 import Surface.SyntaxWalk qualified as SyntaxWalk
 
 -- | A symbol: the name, a short addition such as a parameter list, the kind, the region of the
@@ -92,7 +92,8 @@ moved regionMap s = do
 
 -- | The symbol of a statement; 'Nothing' if it has none. A definition is shown by its name. Any
 -- other statement is shown by the beginning of its text. For @mill@ and @turn@ this text ends with
--- the side, for @pocket@, @rest of@ and @face@ with the stepover, for @drill@ with the depth.
+-- the side, for @pocket@, @rest of@ and @face@ with the stepover, for @drill@ with the depth,
+-- for @engrave@ with the height.
 symbol :: Source -> Statement -> Maybe DocumentSymbol
 symbol source (Located whole s) = case s of
   Part name title -> definition Part' name (maybe "" value title)
@@ -108,6 +109,7 @@ symbol source (Located whole s) = case s of
   Pocket contour stepover own _ -> machining (region stepover) (maybe (region contour) region own)
   RestOf clearing stepover _ -> machining (region stepover) (region clearing)
   Face contour stepover _ -> machining (region stepover) (region contour)
+  Engrave text _ -> machining (region (textHeight text)) (region (lettered text))
   Turn contour side _ -> machining (region side) (region contour)
   Drill holes depth _ -> machining (region depth) (region holes)
   Hole _ points sizes _ _ ->

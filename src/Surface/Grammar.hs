@@ -30,6 +30,7 @@ import Surface.Combinator
 import Surface.Combinator.Fast (FastParser)
 import Surface.Combinator.Fast qualified as FastCombinator
 import Surface.DrawingGrammar (drawingReference, fromFile)
+import Surface.EngravingGrammar (engraving)
 import Surface.Error (Enclosure (..))
 import Surface.HoleForm qualified as HoleForm
 import Surface.HoleGrammar (cutter, hole)
@@ -99,6 +100,7 @@ statementForms =
     ("pocket", Pocket <$> expr <*> stepover <*> ownName <*> settings "pocket"),
     ("rest", RestOf <$> (keyword "of" *> expr) <*> stepover <*> settings "rest"),
     ("face", Face <$> expr <*> stepover <*> settings "face"),
+    ("engrave", engraving expr settings),
     ("turn", machining "turn" Turn),
     ( "drill",
       keyword "at"

@@ -32,7 +32,7 @@ statements =
 -- @contour pocket closed@. Some of them are whole statements, some need a word after them.
 softStatements :: [Text]
 softStatements =
-  ["pocket", "rest", "face", "units", "work", "program", "safe", "stock", "avoid"]
+  ["pocket", "rest", "face", "engrave", "units", "work", "program", "safe", "stock", "avoid"]
     <> ["contours", "stop", "optional", "dwell"]
     <> HoleForm.words'
 
@@ -64,6 +64,7 @@ settingsOf statement = case statement of
   "rest" -> clearing
   "face" ->
     ["approach", "retract", "climb", "conventional", "angle", "depth", "plunge"]
+  "engrave" -> ["depth", "plunge", "ramp"]
   "turn" -> linkingMoves <> passes
   "drill" -> ["peck", "chip break", "dwell", "plunge", "shortest"]
   "spot" -> ["dwell", "plunge", "shortest"]

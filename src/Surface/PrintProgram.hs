@@ -144,6 +144,7 @@ statement comments indent (Located _ s) = case s of
     clearing (spaced [Text "rest of", value e, Text "step", value step]) settings
   Face e step settings ->
     clearing (spaced [Text "face", value e, Text "step", value step]) settings
+  Engrave text settings -> clearing (lettering comments text) settings
   Turn e side settings -> machining "turn" e side settings
   Drill at depth settings ->
     let before = spaced [Text "drill at", value at, Text "depth", value depth]
@@ -360,6 +361,24 @@ heights comments zs =
   concat [[Text "from", value a, Text "to", value b] | Just (a, b) <- [zs]]
   where
     value = PrintExpression.value comments
+
+-- | An engraved text, without its settings.
+lettering :: CommentPositions -> Lettering -> Doc
+lettering comments (Lettering (Located _ text) at height course alignment) =
+  spaced $
+    [Text ("engrave " <> quoted text <> " at"), value at, Text "height", value height]
+      <> case course of
+        Level -> []
+        Inclined e -> [Text "direction", value e]
+        Around e side ->
+          [Text "around", value e] <> [Text (sideName s) | Just (Located _ s) <- [side]]
+      <> [Text ("align " <> alignmentName a) | Just a <- [alignment]]
+  where
+    value = PrintExpression.value comments
+    alignmentName a = case a of
+      AlignLeft -> "left"
+      AlignCentre -> "centre"
+      AlignRight -> "right"
 
 accuracy :: CommentPositions -> Accuracy -> Doc
 accuracy comments a = case a of

@@ -82,7 +82,7 @@ lineTokens around
     (same, []) -> same
 
 settingBlocks :: [Text]
-settingBlocks = ["mill", "pocket", "rest", "face", "turn", "drill"] <> HoleForm.words'
+settingBlocks = ["mill", "pocket", "rest", "face", "engrave", "turn", "drill"] <> HoleForm.words'
 
 -- | The keyword of the statement around a token; empty if there is none.
 blockWord :: TokenContext -> Text
@@ -143,6 +143,7 @@ statementForms =
     ("pocket", "pocket recess step 5 { depth 4 }"),
     ("rest", "rest of rough step 2 { depth 4 }"),
     ("face", "face blank step 20 { depth 0 step 1 }"),
+    ("engrave", "engrave \"12\" at (10, 20) height 8 { depth 0.3 }"),
     ("turn", "turn profile outside { allowance 1, 0 }"),
     ("drill", "drill at (10, 20) depth 15 { peck 5 }"),
     ("spot", "spot at (10, 20) depth 1, or spot at (10, 20) diameter 3"),

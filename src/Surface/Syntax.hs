@@ -16,6 +16,9 @@ module Surface.Syntax
     Statement_ (..),
     HoleWork (..),
     HoleSize (..),
+    Lettering (..),
+    TextCourse (..),
+    TextAlignment (..),
     Cutter,
     Cutter_ (..),
     BodySize,
@@ -146,6 +149,8 @@ data Statement_
     RestOf Expr Expr [Setting]
   | -- | @face blank step 30 mm { … }@: the region to clear, the stepover
     Face Expr Expr [Setting]
+  | -- | @engrave "12" at p height 8 { … }@
+    Engrave Lettering [Setting]
   | -- | @turn profile outside { … }@
     Turn Expr (Located Side) [Setting]
   | -- | @drill at holes depth 12 mm { … }@
@@ -194,6 +199,31 @@ data HoleWork
 
 -- | A size of a hole.
 data HoleSize = HoleDiameter | HoleDepth | HolePitch | HoleAngle
+  deriving stock (Eq, Show, Enum, Bounded)
+
+-- | A text to be engraved: the text in quotation marks, the point to which it is aligned, and the
+-- height of its capitals.
+data Lettering = Lettering
+  { lettered :: Located Text,
+    textPoint :: Expr,
+    textHeight :: Expr,
+    course :: TextCourse,
+    alignment :: Maybe TextAlignment
+  }
+  deriving stock (Eq, Show)
+
+-- | The line on which the letters of a text stand.
+data TextCourse
+  = -- | along x
+    Level
+  | -- | @direction 30@: a straight line in this direction
+    Inclined Expr
+  | -- | @around ring inside@: a circle, and the side on which the letters stand
+    Around Expr (Maybe (Located Side))
+  deriving stock (Eq, Show)
+
+-- | The part of a text that lies at its point.
+data TextAlignment = AlignLeft | AlignCentre | AlignRight
   deriving stock (Eq, Show, Enum, Bounded)
 
 -- | A machine by its name, or by the file with its description.

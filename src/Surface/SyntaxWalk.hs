@@ -77,6 +77,15 @@ itemsIn i =
     Choose _ body others -> concatMap itemsIn (body <> others)
     BrokenItem _ -> []
 
+-- | The expressions of an engraved text that are not parts of other expressions.
+ofLettering :: Lettering -> [Expr]
+ofLettering Lettering {textPoint, textHeight, course} =
+  textPoint :
+  textHeight : case course of
+    Level -> []
+    Inclined e -> [e]
+    Around e _ -> [e]
+
 -- | The expressions of a statement that are not parts of other expressions. Those of the statements
 -- in its blocks are left out.
 ofStatement :: Statement -> [Expr]
@@ -111,6 +120,7 @@ ofStatement (Located _ s) = case s of
   Pocket e stepover _ settings -> e : stepover : concatMap ofSetting settings
   RestOf e stepover settings -> e : stepover : concatMap ofSetting settings
   Face e stepover settings -> e : stepover : concatMap ofSetting settings
+  Engrave text settings -> ofLettering text <> concatMap ofSetting settings
   Turn e _ settings -> e : concatMap ofSetting settings
   Drill e deep settings -> e : deep : concatMap ofSetting settings
   Hole _ e sizes _ settings -> e : map snd sizes <> concatMap ofSetting settings

@@ -29,6 +29,15 @@ unlocated inside (Located _ a) = Located nowhere (inside a)
 here :: Located a -> Located a
 here = unlocated id
 
+lettering :: Lettering -> Lettering
+lettering (Lettering text at height course alignment) =
+  Lettering (here text) (expr at) (expr height) (courseOf course) alignment
+  where
+    courseOf c = case c of
+      Level -> Level
+      Inclined e -> Inclined (expr e)
+      Around e side -> Around (expr e) (fmap here side)
+
 statement :: Statement_ -> Statement_
 statement s = case s of
   Part name title -> Part (here name) (fmap here title)
@@ -61,6 +70,7 @@ statement s = case s of
     Pocket (expr e) (expr step) (fmap here own) (map (unlocated setting) settings)
   RestOf e step settings -> RestOf (expr e) (expr step) (map (unlocated setting) settings)
   Face e step settings -> Face (expr e) (expr step) (map (unlocated setting) settings)
+  Engrave text settings -> Engrave (lettering text) (map (unlocated setting) settings)
   Turn e side settings -> Turn (expr e) (here side) (map (unlocated setting) settings)
   Drill at depth settings -> Drill (expr at) (expr depth) (map (unlocated setting) settings)
   Hole work at sizes side settings ->

@@ -231,6 +231,7 @@ statement n = at (frequency ([(1, s) | s <- simple] <> [(3, s) | n > 0, s <- dee
         Pocket <$> expr n <*> expr n <*> maybe' (at name) <*> some' 4 (setting n),
         RestOf <$> expr n <*> expr n <*> some' 4 (setting n),
         Face <$> expr n <*> expr n <*> some' 4 (setting n),
+        Engrave <$> lettering n <*> some' 4 (setting n),
         Turn <$> expr n <*> at every <*> some' 4 (setting n),
         Repeat <$> at name <*> expr n <*> inside,
         When <$> expr n <*> inside <*> inside,
@@ -256,6 +257,18 @@ statement n = at (frequency ([(1, s) | s <- simple] <> [(3, s) | n > 0, s <- dee
           at (Negate <$> at (Literal <$> number <*> maybe' every)),
           expr (n + 1)
         ]
+
+-- | A text to be engraved.
+lettering :: Int -> Gen Lettering
+lettering n =
+  Lettering
+    <$> at title <*> expr n <*> expr n
+      <*> oneof
+        [ pure Level,
+          Inclined <$> expr n,
+          Around <$> expr n <*> maybe' (at (elements [Inside, Outside]))
+        ]
+      <*> maybe' every
 
 -- | A work on holes with the sizes of one of its forms.
 hole :: Int -> Gen Statement_

@@ -1,0 +1,34 @@
+-- | Checks texts to be engraved: their points, heights, directions and circles.
+module Checked.Lettering
+  ( check,
+  )
+where
+
+import Base.Region (value)
+import Checked.Deferred (Deferred)
+import Checked.Expression (TypingEnvironment, expect)
+import Checked.Inference (Infer)
+import Checked.Syntax qualified as Checked
+import Checked.Type qualified as Type
+import Data.Maybe (fromMaybe)
+import Surface.Syntax qualified as Surface
+
+-- | Checks a text. A text without alignment begins at its point.
+check :: TypingEnvironment -> Surface.Lettering -> Infer (Deferred Checked.Engraving)
+check env text = do
+  point <- expect env Type.aPoint (Surface.textPoint text)
+  height <- expect env Type.len (Surface.textHeight text)
+  line <- case Surface.course text of
+    Surface.Level -> pure (const Checked.AlongX)
+    Surface.Inclined e -> fmap Checked.InDirection <$> expect env Type.angle e
+    Surface.Around e side ->
+      (\e' sol -> Checked.OnCircle (e' sol) (fmap value side == Just Surface.Inside))
+        <$> expect env Type.Circle e
+  pure $ \sol ->
+    Checked.Engraving
+      { Checked.engraved = Surface.lettered text,
+        Checked.anchor = point sol,
+        Checked.capitalHeight = height sol,
+        Checked.textLine = line sol,
+        Checked.textAlignment = fromMaybe Surface.AlignLeft (Surface.alignment text)
+      }
