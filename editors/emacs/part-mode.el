@@ -80,6 +80,12 @@
     ("^[ \t]*\\(pocket\\|face\\|work\\|program\\|safe\\|stock\\|avoid\\|contours\\|dwell\\|spot\\|ream\\|countersink\\|counterbore\\|bore\\|tap\\|thread\\)[ \t]+[(-]?\\(?:\\sw\\|\\s_\\)"
      1 font-lock-keyword-face)
     ("^[ \t]*\\(rest[ \t]+of\\)[ \t]" 1 font-lock-keyword-face)
+    ("^[ \t]*\\(engrave\\)[ \t]+\"" 1 font-lock-keyword-face)
+    ("^[ \t]*engrave[ \t].*\\_<\\(at\\)\\_>.*\\_<\\(height\\)\\_>"
+     (1 font-lock-keyword-face) (2 font-lock-keyword-face))
+    ("^[ \t]*engrave[ \t].*\\_<\\(direction\\|around\\)\\_>" 1 font-lock-keyword-face)
+    ("^[ \t]*engrave[ \t].*\\_<\\(align\\)[ \t]+\\(left\\|centre\\|right\\)\\_>"
+     (1 font-lock-keyword-face) (2 font-lock-keyword-face))
     ("^[ \t]*pocket[ \t].*[ \t]\\(as\\)[ \t]" 1 font-lock-keyword-face)
     ("^[ \t]*\\(\\(?:optional[ \t]+\\)?stop\\)[ \t]*\\(?:--.*\\)?$" 1 font-lock-keyword-face)
     ("^[ \t]*\\(units\\)[ \t]+\\(mm\\|in\\)\\_>"

@@ -52,6 +52,10 @@ provide-module part %§
     # Words that begin a line and are names elsewhere
     add-highlighter shared/part/code/ regex ^\h*(pocket|face|work|program|safe|stock|avoid|contours|dwell|spot|ream|countersink|counterbore|bore|tap|thread)\h+[(-]?\w 1:keyword
     add-highlighter shared/part/code/ regex ^\h*(rest\h+of)\h 1:keyword
+    add-highlighter shared/part/code/ regex ^\h*(engrave)\h 1:keyword
+    add-highlighter shared/part/code/ regex \b(at)\b[^\n]*\b(height)\b[^\n]*\{ 1:keyword 2:keyword
+    add-highlighter shared/part/code/ regex \bheight\b[^\n]*\b(direction|around)\h 1:keyword
+    add-highlighter shared/part/code/ regex \b(align)\h+(left|centre|right)\b 1:keyword 2:keyword
     add-highlighter shared/part/code/ regex ^\h*pocket\h[^\n]*\h(as)\h 1:keyword
     add-highlighter shared/part/code/ regex ^\h*((?:optional\h+)?stop)\h*$ 1:keyword
     add-highlighter shared/part/code/ regex ^\h*(units)\h+(mm|in)\b 1:keyword 2:type

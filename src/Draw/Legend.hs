@@ -14,9 +14,10 @@ import Draw.Descent (DescentKind (..))
 import Draw.Descent qualified as Descent
 import Draw.LineStyle (LineStyles (..))
 import Draw.LineStyle qualified as LineStyle
+import Draw.NodeLabel qualified as NodeLabel
 import Draw.Page (Area (..))
 import Draw.Scene
-  ( Cut (holderRadius, isOnContour, numbered, showsCutter),
+  ( Cut (holderRadius, isOnContour, showsCutter),
     MaterialSide (..),
     Scene (..),
     Shape (..),
@@ -89,7 +90,7 @@ areaEntries styles classes Scene {shapes, cuts, restMaterial, stock} =
 -- | Entries for moves and symbols.
 symbolEntries :: LineStyles -> Scene -> [(Bool, Point -> [Svg], Text)]
 symbolEntries styles scene =
-  [ (any numbered (cuts scene), LineStyle.node styles True `at` 4, "node"),
+  [ (not (null (NodeLabel.shown (cuts scene))), LineStyle.node styles True `at` 4, "node"),
     (not (null (feeds scene)), linkingMove feedPen, "move at feed"),
     (not (null (rapids scene)), linkingMove rapidPen, "rapid move"),
     (descends Plunge, LineStyle.descent styles Plunge `under` 1, "plunge"),

@@ -4,7 +4,7 @@
 module Draw.NodeLabel
   ( dots,
     labels,
-    most,
+    shown,
   )
 where
 
@@ -21,6 +21,8 @@ import Draw.Scene (Cut (..))
 import Draw.Scene qualified as Scene
 import Draw.Svg (Svg)
 import Draw.Svg qualified as Svg
+import Geometry.Index.BoundingBox (BoundingBox (..))
+import Geometry.Index.BoundingBox qualified as BoundingBox
 import Geometry.Segment (Segment)
 import Geometry.Segment qualified as Segment
 import Geometry.Vec (Point, Vec)
@@ -73,6 +75,17 @@ outwardAt away arriving leaving
   where
     along = Vec.add arriving leaving
 
+-- | The cuts of a drawing whose nodes are shown. In a drawing with more than 'most' numbered cuts,
+-- these are the large ones: numbers would hide small ones, such as the strokes of an engraved text.
+shown :: [Cut] -> [Cut]
+shown cuts = if length marked' > most then filter isLarge marked' else marked'
+  where
+    marked' = filter numbered cuts
+    isLarge cut =
+      let BoundingBox {left, bottom, right, top} =
+            foldr1 BoundingBox.union (fmap BoundingBox.ofSegment (Scene.lines cut))
+       in max (right - left) (top - bottom) > 4 * Label.size
+
 -- | Dots of the nodes. If the nodes are closer than 1.5 mm of paper on average, only a node whose
 -- number is shown has a dot.
 dots :: LineStyles -> Cut -> [Svg]
@@ -89,9 +102,9 @@ labels styles cut
   | Vec.isNear (place first) (place final) = entry "0" first : map plain between
   | otherwise = entry "0" first : plain final : map plain between
   where
-    numbered = nodes cut
-    first = NonEmpty.head numbered
-    final = NonEmpty.last numbered
+    ends = nodes cut
+    first = NonEmpty.head ends
+    final = NonEmpty.last ends
     between = [n | (n, True) <- marked cut, number n > 0, number n < number final]
     plain n = PointLabel (Decimal.whole (number n)) (place n) (outward n) near letters
     -- The label of the entry may be further away, because the cutter is drawn at the entry.
@@ -126,6 +139,6 @@ apart :: Double
 apart = 3.5
 
 -- | Greatest legible count of node numbers on one cut. If a drawing has more numbered cuts than
--- this, the cuts that are no larger than a digit get no numbers.
+-- this, the nodes of small cuts are not shown.
 most :: Int
 most = 60

@@ -26,7 +26,7 @@ import Draw.Page qualified as Page
 import Draw.PlotLabel qualified as PlotLabel
 import Draw.PlotMove qualified as PlotMove
 import Draw.PlotSettings (PlotSettings (..))
-import Draw.Scene (Cut (..), MaterialSide (..), Rest (..), Scene (..), Shape (..))
+import Draw.Scene (MaterialSide (..), Rest (..), Scene (..), Shape (..))
 import Draw.Scene qualified as Scene
 import Draw.StockPlot qualified as StockPlot
 import Draw.Svg (Anchor (..), Pen (..), Svg)
@@ -131,7 +131,7 @@ upperLayers styles unit page classes scene =
            (concatMap (DimensionLine.drawn styles (Page.field page)) (dimensions scene))
          | not (null (dimensions scene))
        ]
-    <> [ Svg.layer "nodes" (concatMap (NodeLabel.dots styles) (filter numbered (cuts scene))),
+    <> [ Svg.layer "nodes" (concatMap (NodeLabel.dots styles) (NodeLabel.shown (cuts scene))),
          Svg.layer "labels" (PlotLabel.labels styles unit page scene)
        ]
 

@@ -21,7 +21,7 @@ import Draw.NodeLabel qualified as NodeLabel
 import Draw.Page (Area (..), Page)
 import Draw.Page qualified as Page
 import Draw.PlotMove qualified as PlotMove
-import Draw.Scene (Cut (..), Rest (..), Scene (..), Shape (outline))
+import Draw.Scene (Rest (..), Scene (..), Shape (outline))
 import Draw.Scene qualified as Scene
 import Draw.Svg (Anchor (..), Pen (..), Svg, TextStyle (..))
 import Draw.Svg qualified as Svg
@@ -74,16 +74,7 @@ obstacles field scene =
 -- | Numbers of nodes.
 nodeNumbers :: LineStyles -> Scene -> [PointLabel]
 nodeNumbers styles scene =
-  concatMap
-    (NodeLabel.labels styles)
-    (if length marked > NodeLabel.most then filter readable marked else marked)
-  where
-    marked = filter numbered (cuts scene)
-    -- Node numbers would hide a cut that is no larger than a digit.
-    readable cut =
-      let BoundingBox {left, bottom, right, top} =
-            foldr1 BoundingBox.union (fmap BoundingBox.ofSegment (Scene.lines cut))
-       in max (right - left) (top - bottom) > Label.size
+  concatMap (NodeLabel.labels styles) (NodeLabel.shown (cuts scene))
 
 -- | Heights at the ends of descents, and of the tops of tabs.
 depths :: LineStyles -> LengthUnit -> Scene -> [PointLabel]

@@ -4,11 +4,12 @@ module Font.Lettering
   ( BaseLine (..),
     layout,
     textWidth,
+    measuredRadius,
     inOrder,
   )
 where
 
-import Base.Quantity (Mm (..), Rad (..), over, plus, times, total)
+import Base.Quantity (Mm (..), Rad (..), minus, over, plus, times, total)
 import Data.List qualified as List
 import Data.List.NonEmpty (NonEmpty (..))
 import Data.List.NonEmpty qualified as NonEmpty
@@ -34,8 +35,17 @@ data BaseLine
     WithinCircle Circle Rad
   deriving stock (Eq, Show)
 
--- | The width of a text with capitals of the height @size@. On a circle it is the length of the
--- arc.
+-- | The radius of the circle on which the widths of letters with capitals of the height @size@ are
+-- measured, for letters on the circle @circle@. It is the circle on which neighbours are nearest to
+-- one another: the one at the feet outside, and the one at the tops of the capitals inside.
+measuredRadius :: BaseLine -> Mm -> Circle -> Mm
+measuredRadius line size (Circle _ r) = case line of
+  StraightLine _ _ -> r
+  AroundCircle _ _ -> r
+  WithinCircle _ _ -> minus r size
+
+-- | The width of a text with capitals of the height @size@. On a circle it is the length of an
+-- arc of the radius 'measuredRadius'.
 textWidth :: Mm -> [Letter] -> Mm
 textWidth (Mm size) = times size . total . map width
 
@@ -65,7 +75,7 @@ placing line (Mm middle) (Mm halfWidth) size = case line of
   WithinCircle circle (Rad towards) -> onCircle circle (Rad (towards + angleOn circle)) (pi / 2)
   where
     origin = Vec.point 0 0
-    angleOn (Circle _ r) = over (Mm middle) r
+    angleOn circle = over (Mm middle) (measuredRadius line (Mm size) circle)
     onCircle (Circle centre r) (Rad a) quarter =
       turned (Rad (a + quarter)) (Vec.shift (Vec.polar r (Rad a)) centre)
     -- The middle of the foot of the letter comes to the point @foot@.

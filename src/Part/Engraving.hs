@@ -98,10 +98,9 @@ checkRoom text line size letters = case line of
     fits circle
   where
     width' = Lettering.textWidth size letters
-    fits (Circle _ r) =
-      when
-        (width' > times (2 * pi) r)
-        (mistake (TooLong (region (Checked.engraved text)) width' (times (2 * pi) r)))
+    fits circle = do
+      let room = times (2 * pi) (Lettering.measuredRadius line size circle)
+      when (width' > room) (mistake (TooLong (region (Checked.engraved text)) width' room))
 
 -- | The part of the width of a text that lies before its point.
 shareOf :: Checked.TextAlignment -> Double

@@ -26,7 +26,8 @@ data EngravingMistake
     NoDepth Region
   | -- | a text around a circle whose point is the centre of the circle
     AtCentre Region
-  | -- | a text that is longer than the circle: the width of the text, and the length of the circle
+  | -- | a text that is longer than the circle: the width of the text, and the
+    -- length of the circle on which it is measured
     TooLong Region Mm Mm
   | -- | letters inside a circle that are not lower than its radius: their height, and the radius
     TooHigh Region Mm Mm
@@ -63,7 +64,7 @@ toReport unit fault = case fault of
   TooLong region width circumference ->
     (at region "E0388" "this text is longer than its circle")
       { message =
-          [ "The text has a width of " <> Decimal.inUnit unit width <> ", the circle a length of "
+          [ "The text has a width of " <> Decimal.inUnit unit width <> ", once round the circle is "
               <> Decimal.inUnit unit circumference
               <> "."
           ],

@@ -14,6 +14,9 @@ syntax keyword partStatement mill turn drill rapid move change spindle coolant a
 " Names as well, but for where a statement begins.
 syntax match partStatement /^\s*\zs\<\(pocket\|face\|work\|program\|safe\|stock\|avoid\|contours\|dwell\|spot\|ream\|countersink\|counterbore\|bore\|tap\|thread\)\ze\s\+[(-]\?\k/
 syntax match partStatement /^\s*\zs\<rest\s\+of\ze\s/
+syntax match partStatement /^\s*\zs\<engrave\ze\s\+"/
+syntax match partStatement /\(^\s*engrave\s\+"[^"]*"\s\+\)\@<=at\>/
+syntax match partStatement /\(^\s*engrave\s.*\)\@<=\<\(height\|direction\|around\|align\|centre\)\>/
 syntax match partStatement /\(^\s*pocket\s.*\)\@<=\<as\ze\s/
 syntax match partStatement /^\s*\zs\<\(optional\s\+\)\?stop\ze\s*\(--.*\)\?$/
 syntax match partStatement /\(\<spindle\s\+\)\@<=manual\>/

@@ -12,7 +12,7 @@
 [
   "part" "units" "machine" "import" "tool" "feed" "tolerance" "clearance" "from"
   "let" "param" "table" "curve" "piece" "contour" "assert"
-  "mill" "turn" "pocket" "face" "drill" "rapid" "move" "change" "spindle" "coolant" "aux" "with"
+  "mill" "turn" "pocket" "face" "engrave" "drill" "rapid" "move" "change" "spindle" "coolant" "aux" "with"
   "work" "program" "safe" "stock" "avoid" "contours" "stop" "optional" "dwell"
   "spot" "ream" "countersink" "counterbore" "bore" "tap" "thread"
 ] @keyword
@@ -38,6 +38,7 @@
   "peck" "islands" "rest" "allowed" "angle" "of" "as"
   "diameter" "nose" "cone" "blade" "height" "gear" "flutes" "stickout" "holder" "tip"
   "manual" "limit" "s" "chip" "break" "pitch" "angle" "hand" "threadmill"
+  "direction" "around" "align" "centre"
 ] @keyword
 (floating) @keyword
 (climb) @keyword

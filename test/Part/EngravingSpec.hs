@@ -1,0 +1,116 @@
+-- | Engraved texts are proven, and their toolpaths contain every letter.
+module Part.EngravingSpec (spec) where
+
+import Base.Decimal qualified as Decimal
+import Base.Name (Name (..))
+import Base.Region (Located (..))
+import Base.Result qualified as Result
+import Compile (Analysis (..), Compiled (..))
+import Compile qualified
+import Data.Functor.Identity (runIdentity)
+import Data.List (nub)
+import Data.Map.Strict qualified as Map
+import Data.Text (Text)
+import Data.Text qualified as Text
+import Font.BuiltIn qualified as BuiltIn
+import Font.Font (Letter (strokes))
+import Machine.Machine (Machine)
+import Machines qualified
+import Part.Part qualified as Part
+import Project.LoadedProgram (LoadedProgram)
+import Project.LoadedProgram qualified as LoadedProgram
+import Report.Report qualified as Report
+import Surface.Import qualified as Import
+import Test.Hspec
+import Test.Hspec.QuickCheck (modifyMaxSuccess, prop)
+import Test.QuickCheck
+import Toolpath.Toolpath qualified as Toolpath
+import Verify.Proof qualified as Proof
+
+spec :: Spec
+spec = modifyMaxSuccess (const 60) $ do
+  prop "random engraved texts are proven (catches a cutter beside the strokes)" $
+    forAll ((,) <$> statement 6 <*> elements machines) $ \((_, s), m) ->
+      case Compile.compile (Machines.jobFor m []) (loaded s) of
+        outcome
+          | Just [c] <- Result.ifSound outcome ->
+            counterexample (Text.unpack s) (fmap Proof.isProven (proof c) === Just True)
+          | otherwise ->
+            counterexample (show (s, map Report.title (Result.errors outcome))) (property False)
+  prop "the path of a text cuts every letter in its order (catches a letter left out)" $
+    forAll (statement 30) $ \(content, s) ->
+      case Result.ifSound (Compile.analyse [] (loaded s)) of
+        Just Analysis {path} -> lettersOf path === cutLetters content
+        Nothing -> counterexample (Text.unpack s) (property False)
+  where
+    machines :: [Machine]
+    machines = [Machines.iso6983, Machines.named "linuxcnc-mill", Machines.lkp01f]
+
+-- | A text of at most @most@ letters, and a statement that engraves it.
+statement :: Int -> Gen (Text, Text)
+statement most = do
+  n <- chooseInt (1, most)
+  content <- Text.pack <$> vectorOf n (elements written) `suchThat` any (/= ' ')
+  h <- oneof [choose (1, 30), elements [1.8, 2.5, 3.5, 5, 7, 10]]
+  x <- coordinate
+  y <- coordinate
+  course <-
+    oneof
+      [ pure "",
+        ("direction " <>) . number <$> choose (0, 360),
+        pure ("around circle((0, 0), " <> number (h * fromIntegral (2 * n)) <> ")"),
+        pure ("around circle((0, 0), " <> number (h * fromIntegral (2 * n)) <> ") inside")
+      ]
+  alignment <- elements ["", "align left", "align centre", "align right"]
+  depth <- elements ["depth 0.3", "depth 0.4 step 0.15  plunge 30", "depth 0.2  ramp 10"]
+  pure
+    ( content,
+      Text.unwords
+        [ "engrave \"" <> content <> "\" at (" <> x <> ", " <> y <> ") height " <> number h,
+          course,
+          alignment,
+          "{ " <> depth <> " }"
+        ]
+    )
+  where
+    number = Decimal.short 2
+    coordinate = number <$> choose (1, 300)
+    written = filter (/= '"') (Map.keys BuiltIn.letters)
+
+-- | A program with this statement.
+loaded :: Text -> LoadedProgram
+loaded s =
+  runIdentity (LoadedProgram.load nothing "t.part" whole)
+  where
+    nothing = Import.byName (const (pure (Left "it imports nothing")))
+    whole =
+      Text.unlines
+        [ "part t",
+          "tool 1 mill(diameter 0.5)",
+          "feed 60",
+          "tolerance 0.01",
+          "clearance 2",
+          "from (0, 0, 2)",
+          "work 54",
+          "safe 20",
+          "spindle cw 900",
+          s
+        ]
+
+-- | The letters along which a toolpath cuts, each as often as it has strokes.
+lettersOf :: Toolpath.Toolpath -> [Text]
+lettersOf path =
+  [ name
+    | (_, Name name) <-
+        nub
+          [ (Toolpath.number pass, value (Part.contourName (Part.contour (value job))))
+            | Toolpath.Cutting {Toolpath.job, Toolpath.pass} <- Toolpath.blocks path
+          ]
+  ]
+
+cutLetters :: Text -> [Text]
+cutLetters content =
+  concat
+    [ replicate (maybe 0 (length . strokes) (Map.lookup c BuiltIn.letters)) (Text.singleton c)
+      | c <- Text.unpack content
+    ]
