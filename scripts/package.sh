@@ -46,6 +46,7 @@ fill() {
   done
   put "$root/README.md" "$usr/share/doc/partc/README.md"
   put "$root/LICENSE" "$usr/share/doc/partc/copyright"
+  put "$root/NOTICE" "$usr/share/doc/partc/NOTICE"
   packed "$root/CHANGELOG.md" "$usr/share/doc/partc/changelog.gz"
 }
 

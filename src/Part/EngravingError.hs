@@ -59,7 +59,7 @@ toReport unit fault = case fault of
   AtCentre region ->
     (at region "E0388" "the point of the text is the centre of its circle")
       { message = ["The point says where on the circle the text is."],
-        hints = ["Give a point in the direction of the text from the centre, for example one on it."]
+        hints = ["Give a point in the direction of the text, for example one on the circle."]
       }
   TooLong region width circumference ->
     (at region "E0388" "this text is longer than its circle")

@@ -226,13 +226,13 @@ braced parent = case reverse (heads parent) of
     Word "contour" -> level Items []
     Word "table" -> level TableLines []
     Word k
-      | k `elem` ["mill", "turn", "pocket", "rest", "face", "engrave", "drill"] <> HoleForm.words' ->
-        level (SettingsOf k) []
+      | k `elem` machiningWords <> HoleForm.words' -> level (SettingsOf k) []
       | k == "for", n : _ <- rest, Word w <- shape n -> level inner [BoundName w (place n)]
     _ -> level inner []
   [] -> level inner []
   where
     inner = if opening parent == Items then Items else Statements
+    machiningWords = ["mill", "turn", "pocket", "rest", "face", "engrave", "drill"]
 
 parenthesis :: Token -> Level -> Opening
 parenthesis token parent = case heads parent of

@@ -63,7 +63,9 @@ cuttingStatements =
   [ ("mill", "mill ${1:contour} ${2:outside} {\n  approach (${3:0}, ${4:0})\n  $0\n}"),
     ("pocket", "pocket ${1:contour} step ${2:3 mm} {\n  approach (${3:0}, ${4:0})\n  $0\n}"),
     ("face", "face ${1:blank} step ${2:20 mm} {\n  depth ${3:0 mm}\n  $0\n}"),
-    ("engrave", "engrave \"${1:text}\" at (${2:0}, ${3:0}) height ${4:5 mm} {\n  depth ${5:0.3 mm}\n  $0\n}"),
+    ( "engrave",
+      "engrave \"${1:text}\" at (${2:0}, ${3:0}) height ${4:5 mm} {\n  depth ${5:0.3 mm}\n  $0\n}"
+    ),
     ("rest", "rest of ${1:rough} step ${2:1 mm} {\n  depth ${3:5 mm}\n  $0\n}"),
     ("drill", "drill at ${1:points} depth ${2:5 mm}"),
     ("turn", "turn ${1:contour} ${2:outside} {\n  approach (${3:0}, ${4:0})\n  $0\n}")

@@ -467,8 +467,8 @@ isStatementEnd hasBlock isInBlock open t others =
     isBlockStatement = case shape t of
       Word word -> newLine t && open <= 0 && word `elem` Keyword.blocks
       _ -> False
-    -- True if @t@ is a word such as @stop@ that begins a line, alone or before a number or the @of@
-    -- of @rest of@, outside of the broken statement's braces.
+    -- True if @t@ is a word such as @stop@ that begins a line, alone or before a number, a text or
+    -- the @of@ of @rest of@, outside of the broken statement's braces.
     isSoftStatement = case shape t of
       Word word ->
         newLine t && open <= 0
@@ -479,6 +479,7 @@ isStatementEnd hasBlock isInBlock open t others =
     isAfterSoft next = case shape next of
       Number _ _ -> True
       BadNumber _ -> True
+      Text _ -> True
       Word "of" -> True
       _ -> newLine next
     -- True if @t@ and the next token are two words at the start of a line outside of the broken

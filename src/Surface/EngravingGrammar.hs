@@ -28,12 +28,10 @@ engraving expr settings = Engrave <$> (lettering <?> "a text") <*> settings "eng
       (keyword "direction" *> (Inclined <$> expr))
         <|> ( keyword "around"
                 *> ( Around <$> expr
-                       <*> Parsec.optional
-                         ( onThisLine
-                             (located ((Outside <$ keyword "outside") <|> (Inside <$ keyword "inside")))
-                         )
+                       <*> Parsec.optional (onThisLine (located side))
                    )
             )
+    side = (Outside <$ keyword "outside") <|> (Inside <$ keyword "inside")
     alignment =
       (AlignLeft <$ keyword "left")
         <|> (AlignCentre <$ keyword "centre")
