@@ -305,6 +305,7 @@ spec = do
                 "Geometry",
                 "Drawing",
                 "Offset",
+                "Font",
                 "Part",
                 "Toolpath",
                 "Machine",

@@ -151,7 +151,6 @@ statement env (Located at s) = case s of
   Surface.Param n e -> done (valueDefinition n (infer env e))
   Surface.LetFunction n parameters e -> done (functionDefinition env n parameters e)
   Surface.Contour n closure items -> done (contourDefinition env n closure items)
-  -- "Surface.Import" has put the outlines of the drawing in its place.
   Surface.Drawn {} -> pure Nothing
   Surface.Table n written -> done (tableDefinition env n written)
   Surface.Curve n e -> done (valueDefinition n (curve env e))
@@ -375,8 +374,7 @@ tableDefinition env name written = do
   where
     tableLines = case written of
       Surface.WrittenLines ls -> ls
-      Surface.LinesFromFile _ -> []
-      Surface.LinesFromDrawing _ -> []
+      _ -> []
 
 -- | Checks the definition of a piece, and binds its name. "Checked.Piece" defines this term.
 pieceDefinition ::

@@ -75,16 +75,16 @@ outwardAt away arriving leaving
   where
     along = Vec.add arriving leaving
 
--- | The cuts of a drawing whose nodes are shown. In a drawing with more than 'most' numbered cuts,
--- these are the large ones: numbers would hide small ones, such as the strokes of an engraved text.
+-- | The cuts of a drawing whose nodes are shown. In a drawing with more than 'mostCuts' numbered
+-- cuts, these are the large ones: numbers would hide small ones, such as the strokes of a text.
 shown :: [Cut] -> [Cut]
-shown cuts = if length marked' > most then filter isLarge marked' else marked'
+shown cuts = if length marked' > mostCuts then filter isLarge marked' else marked'
   where
     marked' = filter numbered cuts
     isLarge cut =
       let BoundingBox {left, bottom, right, top} =
             foldr1 BoundingBox.union (fmap BoundingBox.ofSegment (Scene.lines cut))
-       in max (right - left) (top - bottom) > 4 * Label.size
+       in max (right - left) (top - bottom) > 6 * Label.size
 
 -- | Dots of the nodes. If the nodes are closer than 1.5 mm of paper on average, only a node whose
 -- number is shown has a dot.
@@ -138,7 +138,10 @@ marked cut = (first, True) : go first more
 apart :: Double
 apart = 3.5
 
--- | Greatest legible count of node numbers on one cut. If a drawing has more numbered cuts than
--- this, the nodes of small cuts are not shown.
+-- | Greatest count of cuts with numbers on a drawing. If there are more, small ones have none.
+mostCuts :: Int
+mostCuts = 20
+
+-- | Greatest legible count of node numbers on one cut.
 most :: Int
 most = 60

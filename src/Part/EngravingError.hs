@@ -38,14 +38,8 @@ toReport :: LengthUnit -> EngravingMistake -> Report
 toReport unit fault = case fault of
   NoLetter region c ->
     (at region "E0385" ("there is no letter for " <> written c))
-      { message =
-          [ "The letters are those of the Latin and of the Russian alphabet, with digits and signs."
-          ],
-        hints =
-          [ if c == '\t'
-              then "Write spaces instead of the tabulator."
-              else "Write another character, or draw it as a contour and mill on the contour."
-          ]
+      { message = ["There are letters of the Latin and of the Russian alphabet, digits and signs."],
+        hints = [if c == '\t' then "Write spaces instead of the tabulator." else drawIt]
       }
   NothingToEngrave region ->
     (at region "E0386" "this text has nothing to engrave")
@@ -57,28 +51,35 @@ toReport unit fault = case fault of
         hints = ["Give the depth in the braces, for example depth 0.3."]
       }
   AtCentre region ->
-    (at region "E0388" "the point of the text is the centre of its circle")
-      { message = ["The point says where on the circle the text is."],
-        hints = ["Give a point in the direction of the text, for example one on the circle."]
-      }
+    circleReport
+      region
+      "the point of the text is the centre of its circle"
+      "The point says where on the circle the text is."
+      "Give a point in the direction of the text, for example one on the circle."
   TooLong region width circumference ->
-    (at region "E0388" "this text is longer than its circle")
-      { message =
-          [ "The text has a width of " <> Decimal.inUnit unit width <> ", once round the circle is "
-              <> Decimal.inUnit unit circumference
-              <> "."
-          ],
-        hints = ["Give the text a smaller height, or a larger circle."]
-      }
+    circleReport
+      region
+      "this text is longer than its circle"
+      ( "The text has a width of " <> Decimal.inUnit unit width
+          <> ", once round the circle is "
+          <> Decimal.inUnit unit circumference
+          <> "."
+      )
+      smaller
   TooHigh region size radius ->
-    (at region "E0388" "this circle is too small for letters inside it")
-      { message =
-          [ "The capitals are " <> Decimal.inUnit unit size <> " high, the radius is "
-              <> Decimal.inUnit unit radius
-              <> "."
-          ],
-        hints = ["Give the text a smaller height, or a larger circle."]
-      }
+    circleReport
+      region
+      "this circle is too small for letters inside it"
+      ( "The capitals are " <> Decimal.inUnit unit size <> " high, the radius is "
+          <> Decimal.inUnit unit radius
+          <> "."
+      )
+      smaller
+  where
+    drawIt = "Write another character, or draw it as a contour and mill on the contour."
+    smaller = "Give the text a smaller height, or a larger circle."
+    circleReport region title sentence hint =
+      (at region "E0388" title) {message = [sentence], hints = [hint]}
 
 -- | A character in the words of a report. One that cannot be seen is given by its number.
 written :: Char -> Text
