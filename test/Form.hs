@@ -236,7 +236,7 @@ longFunctions =
       <> because
         "a table of words"
         [ "Checked.NameMeaning.meanings",
-        "Drawing.CodePageTable.rows",
+          "Drawing.CodePageTable.rows",
           "Query.Manual.settings",
           "Query.Manual.statements",
           "Surface.WordMeaning.meanings",
