@@ -60,26 +60,23 @@ toReport unit fault = case fault of
     circleReport
       region
       "this text is longer than its circle"
-      ( "The text has a width of " <> Decimal.inUnit unit width
-          <> ", once round the circle is "
-          <> Decimal.inUnit unit circumference
-          <> "."
-      )
+      ("The text has a width of " <> size width <> ", the circle one of " <> size circumference <> ".")
       smaller
-  TooHigh region size radius ->
+  TooHigh region high radius ->
     circleReport
       region
       "this circle is too small for letters inside it"
-      ( "The capitals are " <> Decimal.inUnit unit size <> " high, the radius is "
-          <> Decimal.inUnit unit radius
-          <> "."
-      )
+      ("The capitals are " <> size high <> " high, the radius is " <> size radius <> ".")
       smaller
   where
-    drawIt = "Write another character, or draw it as a contour and mill on the contour."
+    size = Decimal.inUnit unit
     smaller = "Give the text a smaller height, or a larger circle."
     circleReport region title sentence hint =
       (at region "E0388" title) {message = [sentence], hints = [hint]}
+
+-- | The advice where there is no letter.
+drawIt :: Text
+drawIt = "Write another character, or draw it as a contour and mill on the contour."
 
 -- | A character in the words of a report. One that cannot be seen is given by its number.
 written :: Char -> Text

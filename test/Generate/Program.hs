@@ -9,6 +9,7 @@ where
 import Base.Decimal qualified as Decimal
 import Base.Name (Name (..))
 import Base.NumberTable qualified as NumberTable
+import Base.Quantity (LengthUnit (..))
 import Base.Region (Located (..), Region (..))
 import Data.Char (isAlphaNum)
 import Data.List.NonEmpty (NonEmpty (..))
@@ -161,6 +162,15 @@ number =
     whole = Text.pack <$> (choose (1, 4) >>= \k -> vectorOf k (choose ('0', '9')))
     numeral digits = Numeral digits (fromMaybe 0 (Decimal.parse digits))
 
+-- | A part of a drawing.
+drawingReference :: Gen DrawingReference
+drawingReference =
+  DrawingReference
+    <$> at ((<> ".dxf") <$> title)
+    <*> maybe' (at (elements [OnLayer, WithIdentifier, WithClass] <*> title))
+    <*> maybe' (at (elements [Millimetres, Inches]))
+    <*> maybe' (at (Literal <$> number <*> maybe' every))
+
 title :: Gen Text
 title = Text.pack <$> listOf (elements "ab Фл-.,(){}'\t%0")
 
@@ -190,6 +200,8 @@ statement n = at (frequency ([(1, s) | s <- simple] <> [(3, s) | n > 0, s <- dee
         LetFunction <$> at name <*> nonEmpty 2 (at name) <*> expr (n + 1),
         Param <$> at name <*> expr n,
         Table <$> at name <*> (LinesFromFile <$> at title),
+        Table <$> at name <*> (LinesFromDrawing <$> drawingReference),
+        Drawn <$> elements [OneOutline, AllOutlines] <*> at name <*> drawingReference,
         Curve <$> at name <*> expr (n + 1),
         Piece
           <$> at name

@@ -35,7 +35,7 @@ cases =
     ),
     ( "before elements of two words",
       ["contour c clsed {", "  a tangent", "  b tangent", "}", "aux 3"],
-      "‘closed’ or ‘open’ is needed here, not ‘clsed’"
+      "‘closed’, ‘from’ or ‘open’ is needed here, not ‘clsed’"
     ),
     ( "before a block of statements",
       ["if f(a, ) {", "  aux 1", "} else {", "  aux 2", "}", "aux 3"],
