@@ -60,7 +60,7 @@ toReport unit fault = case fault of
     circleReport
       region
       "this text is longer than its circle"
-      ("The text has a width of " <> size width <> ", the circle one of " <> size circumference <> ".")
+      ("The text is " <> size width <> " wide, the circle " <> size circumference <> " long.")
       smaller
   TooHigh region high radius ->
     circleReport
