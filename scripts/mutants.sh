@@ -18,7 +18,7 @@ refresh() {
     [ ! -f "$f" ] || cmp -s "$f" "$copy/$f" || cp --parents "$f" "$copy"
   done)
   # Files that were removed since are removed here too.
-  find app bench src test machines explain -type f | while IFS= read -r f; do [ -f "$top/$f" ] || rm -f "$f"; done
+  find app bench src test machines explain fonts -type f | while IFS= read -r f; do [ -f "$top/$f" ] || rm -f "$f"; done
 }
 
 # Tries the mutants with these names in the copy with this number.
