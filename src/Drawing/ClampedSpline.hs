@@ -84,7 +84,7 @@ joined (first :| others)
     spread = maximum (map distance (first : others))
     distance p = let Mm d = Vec.distance first p in d
 
--- | The same curve backwards. The knots are negated, so that they ascend.
+-- | Spline in the opposite direction. Its knots are negated, so that they ascend.
 reversed :: Net -> Net
 reversed Net {knotsOf, controlsOf} =
   Net

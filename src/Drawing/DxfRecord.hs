@@ -36,7 +36,7 @@ data Record = Record
     begin :: Int,
     -- | the value of its pair with code 0
     word :: Text,
-    -- | its other pairs
+    -- | pairs of the record after the first one
     pairs :: [Pair]
   }
   deriving stock (Eq, Show)

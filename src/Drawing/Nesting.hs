@@ -16,9 +16,9 @@ import Geometry.Polyarc (Ends (..), Polyarc (..))
 import Geometry.Segment (Segment (Straight))
 import Geometry.WindingNumber qualified as WindingNumber
 
--- | For each outline, the count of the other outlines around it. The outlines are closed, and no
--- two of them cross or touch. A curve counts as a polygon through points of it; an outline
--- between this polygon and the curve is not told apart.
+-- | Count of the other outlines around each outline. The outlines are closed, and no two of them
+-- cross or touch. A curve counts as a polygon through points of it; an outline between
+-- this polygon and the curve is not told apart.
 depths :: [Outline] -> [Int]
 depths outlines =
   [ length

@@ -49,7 +49,7 @@ data DrawnPart = DrawnPart {entity :: Entity, piece :: Piece}
 
 -- | The outlines of some entities.
 data Joining = Joining
-  { -- | in the order of their first entities
+  { -- | outlines in the order of their first entities
     outlines :: [Outline],
     -- | the gaps that were closed, without those below 'Tolerance.same'
     gaps :: [ClosedGap],

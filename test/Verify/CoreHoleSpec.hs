@@ -35,7 +35,7 @@ spec =
 
 -- | A tool that needs a hole.
 data Tool = Tool
-  { -- | its statements; the hole is at (10, 10), and 8 mm deep where the tool works
+  { -- | statements of the tool; the hole is at (10, 10), and 8 mm deep where the tool works
     statements :: [Text],
     -- | radius in mm within which it cannot cut
     coreRadius :: Double

@@ -158,7 +158,7 @@ casteljau points t = case points of
     mixed (p, v) (q, w) =
       let weight = (1 - t) * v + t * w in (Vec.interpolate (t * w / weight) p q, weight)
 
--- | The same curve with a degree higher by one.
+-- | Bézier curve of the next higher degree with the points of a given one.
 elevated :: Bezier -> Bezier
 elevated c =
   only (Bezier.fromPoints (Exts.fromList (map fst new)) (Just weights))
