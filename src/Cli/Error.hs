@@ -50,8 +50,8 @@ data Error
     NoRenderer
   | -- | No installed program could convert the drawing: the name of the last one, and what it said.
     RendererFails Text
-  | -- | The name of the file for a drawing ends in this, the ending of another form. The
-    -- second text lists the endings that it may have.
+  | -- | The name of the file for a drawing ends in this, the ending of another form. The second
+    -- text lists the endings that it may have.
     NoSuchForm Text Text
   | -- | The command line gives a value to the parameter of this name, but the program is an input
     -- sheet, which has no parameters.

@@ -152,7 +152,7 @@ spec = do
         forM_ ["skin.csv", "skin.part"] $ \name ->
           copyFile ("test/programs/table/good" </> name) (folder </> name)
         kept <- readFile (folder </> "skin.csv")
-        forM_ ["compile", "plot", "export-sheet"] $ \command -> do
+        forM_ ["compile", "plot", "export", "export-sheet"] $ \command -> do
           (code, out, err) <- partc [command, folder </> "skin.part", "-o", folder </> "skin.csv"]
           (code, out) `shouldBe` (ExitFailure 1, "")
           (command, err) `shouldSatisfy` (isInfixOf "error[E0807]" . snd)
@@ -467,6 +467,7 @@ spec = do
         "decode",
         "tape",
         "plot",
+        "export",
         "import",
         "export-sheet",
         "machines",

@@ -60,6 +60,8 @@ unescaped text = Text.pack (joined (units (Text.unpack text)))
       c : more -> fromEnum c : units more
       [] -> []
     joined us = case us of
-      a : b : more | a >= 0xD800 && a < 0xDC00 -> toEnum (0x10000 + (a - 0xD800) * 0x400 + b - 0xDC00) : joined more
+      a : b : more
+        | a >= 0xD800 && a < 0xDC00 ->
+          toEnum (0x10000 + (a - 0xD800) * 0x400 + b - 0xDC00) : joined more
       a : more -> toEnum a : joined more
       [] -> []

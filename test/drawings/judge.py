@@ -134,7 +134,12 @@ def cubic_measures(p):
             x, y = cubic(p, t)
             u = 1 - t
             d = [
-                3 * (u * u * (p[1][i] - p[0][i]) + 2 * u * t * (p[2][i] - p[1][i]) + t * t * (p[3][i] - p[2][i]))
+                3
+                * (
+                    u * u * (p[1][i] - p[0][i])
+                    + 2 * u * t * (p[2][i] - p[1][i])
+                    + t * t * (p[3][i] - p[2][i])
+                )
                 for i in (0, 1)
             ]
             length += w * math.hypot(*d)
@@ -350,7 +355,9 @@ def judge_dxf(wanted, path):
             need(near([z * unit], [low]), f"{layer}: height {z}")
             need(near([(z + e.dxf.get("thickness", 0)) * unit], [high]), f"{layer}: thickness")
     moves = [
-        m for m in wanted["moves"] if length_of(m["segment"]) > 0 or m["heights"][0] != m["heights"][1]
+        m
+        for m in wanted["moves"]
+        if length_of(m["segment"]) > 0 or m["heights"][0] != m["heights"][1]
     ]
     drawn = [e for e in doc.modelspace() if e.dxf.layer.startswith("PATH_")]
     need(len(drawn) == len(moves), f"{len(drawn)} entities for {len(moves)} moves")
@@ -456,7 +463,8 @@ def judge_svg(wanted, path):
             if key in known:
                 found = known[key]
             else:
-                found = min(drawn, key=lambda d: apart(p[:4], d[:4]) + apart(at(p, 0.5), at(d, 0.5)))
+                middle = at(p, 0.5)
+                found = min(drawn, key=lambda d: apart(p[:4], d[:4]) + apart(middle, at(d, 0.5)))
             need(near(p[:4], found[:4]), f"a move from {p[:2]} to {p[2:4]} in SVG")
             need(near(at(p, 0.5), at(found, 0.5)), f"the middle of a move at {at(p, 0.5)} in SVG")
     circles = [e for e in layers.get("HOLES", [])]

@@ -1,0 +1,52 @@
+-- | The subcommand @export@.
+module Cli.ExportSpec (spec) where
+
+import Command (inFolder, partc)
+import Data.ByteString qualified as ByteString
+import Data.List (isInfixOf, isPrefixOf)
+import System.Directory (doesFileExist, listDirectory)
+import System.Exit (ExitCode (..))
+import System.FilePath ((</>))
+import Test.Hspec
+
+spec :: Spec
+spec = describe "drawings for CAD programs" $ do
+  it "are DXF or SVG by the name of the file (catches DXF in a file that is called SVG)" $
+    inFolder $ \folder -> do
+      beginnings <- traverse (beginning folder) ["a.dxf", "a.svg", "a.SVG", "a"]
+      beginnings `shouldBe` ["  0\nSECTION\n", "<?xml versio", "<?xml versio", "  0\nSECTION\n"]
+  it "are DXF on standard output" $ do
+    (code, out, _) <- partc ["export", "-q", "examples/flange.part"]
+    code `shouldBe` ExitSuccess
+    out `shouldSatisfy` ("  0\nSECTION\n" `isPrefixOf`)
+    partc ["export", "-q", "examples/flange.part", "-o", "-"]
+      `shouldReturn` (ExitSuccess, out, "")
+  it "are refused in another form (catches a file that nothing can read)" $
+    inFolder $ \folder -> do
+      (code, _, complaint) <- exported folder "a.dwg"
+      code `shouldBe` ExitFailure 1
+      complaint `shouldSatisfy` ("error[E0823]" `isInfixOf`)
+      complaint `shouldSatisfy` (".dxf or .svg" `isInfixOf`)
+      listDirectory folder `shouldReturn` []
+  it "do not replace the program (catches a lost program)" $
+    inFolder $ \folder -> do
+      let file = folder </> "p.part"
+      ByteString.readFile "examples/flange.part" >>= ByteString.writeFile file
+      (code, _, complaint) <- partc ["export", file, "-o", file]
+      code `shouldBe` ExitFailure 1
+      complaint `shouldSatisfy` ("error[E0807]" `isInfixOf`)
+      ByteString.readFile file `shouldSatisfyM` \kept ->
+        (== kept) <$> ByteString.readFile "examples/flange.part"
+  it "are not written for a program with errors (catches a drawing of half a part)" $
+    inFolder $ \folder -> do
+      ByteString.writeFile (folder </> "p.part") "part p\nfrom (0, 0)\nmill edge outside { }\n"
+      (code, _, _) <- partc ["export", folder </> "p.part", "-o", folder </> "p.dxf"]
+      code `shouldBe` ExitFailure 1
+      doesFileExist (folder </> "p.dxf") `shouldReturn` False
+  where
+    exported folder name = partc ["export", "-q", "examples/flange.part", "-o", folder </> name]
+    beginning folder name = do
+      (code, _, _) <- exported folder name
+      code `shouldBe` ExitSuccess
+      ByteString.take 12 <$> ByteString.readFile (folder </> name)
+    shouldSatisfyM action test = action >>= test >>= (`shouldBe` True)
