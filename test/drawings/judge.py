@@ -402,6 +402,7 @@ def svg_pieces(element):
             if not near(p, q, 0):
                 pieces.append(("segment", [*p, *q]))
         elif isinstance(s, svgpathtools.Arc):
+            need(s.radius.real == s.radius.imag, "an arc of an ellipse")
             need(not s.large_arc, "an arc of more than a half circle")
             sweep = (-2 if s.sweep else 2) * math.asin(min(1, apart(p, q) / 2 / s.radius.real))
             pieces.append(("segment", [*p, *q, s.center.real, -s.center.imag, sweep]))
