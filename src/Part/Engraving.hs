@@ -25,7 +25,7 @@ import Geometry.Polyarc qualified as Polyarc
 import Geometry.Tolerance qualified as Tolerance
 import Geometry.Vec (Point)
 import Geometry.Vec qualified as Vec
-import Part.EngravingError (EngravingMistake (..))
+import Part.EngravingError (CircleMisfit (..), EngravingMistake (..))
 import Part.Error (CutterStatement (EngraveStatement), Error (..), ValueFact (InEngraving))
 import Part.Evaluation (Eval)
 import Part.Evaluation qualified as Evaluation
@@ -83,7 +83,7 @@ baseLineOf env at p line = case line of
     StraightLine p . Rad . Expression.number <$> Expression.evaluate env e
   Checked.OnCircle e isInside -> do
     circle@(Circle centre _) <- circleOf <$> Expression.evaluate env e
-    when (Vec.distance centre p <= Mm Tolerance.equal) (mistake (AtCentre at))
+    when (Vec.distance centre p <= Mm Tolerance.equal) (mistake (NoFit at AtCentre))
     let towards = Vec.angle (Vec.to centre p)
     pure (if isInside then WithinCircle circle towards else AroundCircle circle towards)
 
@@ -94,13 +94,13 @@ checkRoom text line size letters = case line of
   StraightLine _ _ -> pure ()
   AroundCircle circle _ -> fits circle
   WithinCircle circle@(Circle _ r) _ -> do
-    when (size >= r) (mistake (TooHigh (region (Checked.capitalHeight text)) size r))
+    when (size >= r) (mistake (NoFit (region (Checked.capitalHeight text)) (TooHigh size r)))
     fits circle
   where
     width' = Lettering.textWidth size letters
     fits circle = do
       let room = times (2 * pi) (Lettering.measuredRadius line size circle)
-      when (width' > room) (mistake (TooLong (region (Checked.engraved text)) width' room))
+      when (width' > room) (mistake (NoFit (region (Checked.engraved text)) (TooLong width' room)))
 
 -- | The part of the width of a text that lies before its point.
 shareOf :: Checked.TextAlignment -> Double
