@@ -3,6 +3,7 @@
 -- | Faults of engraved texts.
 module Part.EngravingError
   ( EngravingMistake (..),
+    CircleMisfit (..),
     toReport,
   )
 where
@@ -24,13 +25,19 @@ data EngravingMistake
     NothingToEngrave Region
   | -- | a statement without a depth
     NoDepth Region
-  | -- | a text around a circle whose point is the centre of the circle
-    AtCentre Region
-  | -- | a text that is longer than the circle: the width of the text, and the
-    -- length of the circle on which it is measured
-    TooLong Region Mm Mm
-  | -- | letters inside a circle that are not lower than its radius: their height, and the radius
-    TooHigh Region Mm Mm
+  | -- | a text that does not fit its circle
+    NoFit Region CircleMisfit
+  deriving stock (Eq, Show)
+
+-- | The reason why a text does not fit its circle.
+data CircleMisfit
+  = -- | its point is the centre of the circle
+    AtCentre
+  | -- | it is longer than the circle on which its widths are measured: its width, and the length of
+    -- this circle
+    TooLong Mm Mm
+  | -- | letters inside the circle that are not lower than its radius: their height, and the radius
+    TooHigh Mm Mm
   deriving stock (Eq, Show)
 
 -- | The report of a fault.
@@ -39,7 +46,11 @@ toReport unit fault = case fault of
   NoLetter region c ->
     (at region "E0385" ("there is no letter for " <> written c))
       { message = ["There are letters of the Latin and of the Russian alphabet, digits and signs."],
-        hints = [if c == '\t' then "Write spaces instead of the tabulator." else drawIt]
+        hints =
+          [ if c == '\t'
+              then "Write spaces instead of the tabulator."
+              else "Write another character, or draw it as a contour and mill on the contour."
+          ]
       }
   NothingToEngrave region ->
     (at region "E0386" "this text has nothing to engrave")
@@ -50,33 +61,33 @@ toReport unit fault = case fault of
       { message = ["From one stroke to the next the cutter has to be lifted and to go down again."],
         hints = ["Give the depth in the braces, for example depth 0.3."]
       }
-  AtCentre region ->
-    circleReport
-      region
-      "the point of the text is the centre of its circle"
-      "The point says where on the circle the text is."
+  NoFit region misfit ->
+    let (title, sentence, hint) = misfitWords unit misfit
+     in (at region "E0388" title) {message = [sentence], hints = [hint]}
+
+-- | The title of the report, its sentence and its hint.
+misfitWords :: LengthUnit -> CircleMisfit -> (Text, Text, Text)
+misfitWords unit misfit = case misfit of
+  AtCentre ->
+    ( "the point of the text is the centre of its circle",
+      "The point says where on the circle the text is.",
       "Give a point in the direction of the text, for example one on the circle."
-  TooLong region width circumference ->
-    circleReport
-      region
-      "this text is longer than its circle"
-      ("The text is " <> size width <> " wide, the circle " <> size circumference <> " long.")
+    )
+  TooLong width circumference ->
+    ( "this text is longer than its circle",
+      "The text has a width of " <> size width <> ", once round the circle is "
+        <> size circumference
+        <> ".",
       smaller
-  TooHigh region high radius ->
-    circleReport
-      region
-      "this circle is too small for letters inside it"
-      ("The capitals are " <> size high <> " high, the radius is " <> size radius <> ".")
+    )
+  TooHigh height radius ->
+    ( "this circle is too small for letters inside it",
+      "The capitals are " <> size height <> " high, the radius is " <> size radius <> ".",
       smaller
+    )
   where
     size = Decimal.inUnit unit
     smaller = "Give the text a smaller height, or a larger circle."
-    circleReport region title sentence hint =
-      (at region "E0388" title) {message = [sentence], hints = [hint]}
-
--- | The advice where there is no letter.
-drawIt :: Text
-drawIt = "Write another character, or draw it as a contour and mill on the contour."
 
 -- | A character in the words of a report. One that cannot be seen is given by its number.
 written :: Char -> Text

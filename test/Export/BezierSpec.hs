@@ -3,7 +3,7 @@ module Export.BezierSpec (spec) where
 
 import Base.Quantity (Mm (..), Rad (..))
 import Data.List.NonEmpty qualified as NonEmpty
-import Export.Bezier (Bezier (Bezier))
+import Export.Bezier (CubicBezier (CubicBezier))
 import Export.Bezier qualified as Bezier
 import Geometry.Segment (Segment (..))
 import Geometry.Segment qualified as Segment
@@ -68,9 +68,9 @@ arc = do
   pure Arc {start = at from, end = at (from + turn), centre = m, sweep = Rad turn}
 
 -- | Curves that run to the right without turning back, so that no point is passed twice.
-curve :: Gen Bezier
+curve :: Gen CubicBezier
 curve = do
   ys <- vectorOf 4 (choose (-5, 5))
   case zipWith Vec.point [0, 3, 6, 9] ys of
-    [a, b, c, d] -> pure (Bezier a b c d)
+    [a, b, c, d] -> pure (CubicBezier a b c d)
     _ -> discard

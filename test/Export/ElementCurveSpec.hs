@@ -8,7 +8,7 @@ import Data.List (sort)
 import Data.List.NonEmpty (NonEmpty (..))
 import Data.List.NonEmpty qualified as NonEmpty
 import Data.Maybe (isJust, isNothing)
-import Export.Bezier (Bezier)
+import Export.Bezier (CubicBezier)
 import Export.Bezier qualified as Bezier
 import Export.ElementCurve qualified as ElementCurve
 import Generate.Curve qualified as Curves
@@ -102,14 +102,14 @@ contour exact =
         }
 
 -- | The largest distance of points of the curves from the segments, in mm.
-deviation :: NonEmpty Segment -> NonEmpty Bezier -> Double
+deviation :: NonEmpty Segment -> NonEmpty CubicBezier -> Double
 deviation segments curves =
   maximum [nearestOf (Bezier.at t c) | c <- NonEmpty.toList curves, t <- [0, 0.25 .. 1]]
   where
     nearestOf p = minimum [d | s <- NonEmpty.toList segments, let Mm d = Distance.toPoint p s]
 
 -- | True if the curves pass all nodes of the segments.
-covers :: NonEmpty Segment -> NonEmpty Bezier -> Bool
+covers :: NonEmpty Segment -> NonEmpty CubicBezier -> Bool
 covers segments curves = all isPassed (fmap Segment.start segments)
   where
     isPassed :: Point -> Bool
