@@ -26,7 +26,8 @@ import Geometry.Vec qualified as Vec
 -- | The contents of a drawing.
 data Expected = Expected
   { unit :: Text,
-    -- | contents by the name of the layer, or by the identifier of an SVG element outside of all layers
+    -- | contents by the name of the layer, or by the identifier of an SVG element outside of all
+    -- layers
     layers :: Map Text ExpectedLayer,
     -- | layers that are not read
     hiddenLayers :: [Text],

@@ -389,6 +389,12 @@ def judge_dxf(wanted, path):
 # SVG ----------------------------------------------------------------------------------------------
 
 
+def identity(name):
+    """A name as XML allows it for an id: letters, digits, - _ and ., and no digit at the beginning."""
+    allowed = "".join(c if c.isalnum() or c in "-_." else "_" for c in name)
+    return allowed if allowed[:1].isalpha() or allowed[:1] == "_" else "_" + allowed
+
+
 def svg_pieces(element):
     """The pieces of an outline, with y upwards."""
     if element.tag == SVG + "circle":
@@ -444,7 +450,7 @@ def judge_svg(wanted, path):
     drawn = layers.get("PART", [])
     need(len(drawn) == len(wanted["contours"]), f"{len(drawn)} contours")
     for c, e in zip(wanted["contours"], drawn):
-        need(e.get("id").startswith(c["name"]), f"the identity {e.get('id')}")
+        need(e.get("id").startswith(identity(c["name"])), f"the identity {e.get('id')}")
         compare_outline(divided(c), svg_pieces(e))
         for _, p in svg_pieces(e):
             for x, y in p[:4] if isinstance(p[0], tuple) else ends(p):

@@ -235,9 +235,9 @@ unitTangentAcrossSeam approach curve u
   | otherwise = unitTangent approach curve u
 
 -- | Unit tangent just before or just after parameter @u@. The curve counts as continued beyond its
--- ends, so that there is a tangent before the start and after the end. The tangent is the limit from
--- the given side if the speed is 0, as at the end of a span with two equal control points. It is the
--- tangent of the curve below the shift if a shift has collapsed a stretch to a point.
+-- ends, so that there is a tangent before the start and after the end. The tangent is the limit
+-- from the given side if the speed is 0, as at the end of a span with two equal control points. It
+-- is the tangent of the curve below the shift if a shift has collapsed a stretch to a point.
 unitTangent :: Approach -> Curve -> Double -> Vec
 unitTangent approach curve u = case TaylorExpansion.direction approach (expansion 1) of
   Just d -> d
