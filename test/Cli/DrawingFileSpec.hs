@@ -7,16 +7,12 @@ import Data.List (isInfixOf)
 import System.Directory
   ( createDirectory,
     doesFileExist,
-    emptyPermissions,
     findExecutable,
     listDirectory,
-    setOwnerExecutable,
-    setOwnerReadable,
-    setPermissions,
   )
 import System.Exit (ExitCode (..))
 import System.FilePath ((</>))
-import System.Process (CreateProcess (env), proc, readCreateProcessWithExitCode)
+import System.Process (CreateProcess (env), proc, readCreateProcessWithExitCode, readProcess)
 import Test.Hspec
 
 spec :: Spec
@@ -90,11 +86,13 @@ plotted folder scripts name = do
       }
     ""
   where
-    install (script, body) = do
-      writeFile (folder </> "bin" </> script) ("#!/bin/sh\n" <> body <> "\n")
-      setPermissions
-        (folder </> "bin" </> script)
-        (setOwnerReadable True (setOwnerExecutable True emptyPermissions))
+    -- A process of its own writes the script. A script that this process has open for writing would
+    -- be open in the children of tests that run at the same time, and then it cannot be executed.
+    install (script, body) =
+      readProcess
+        "/bin/sh"
+        ["-c", "cat > \"$0\" && chmod 500 \"$0\"", folder </> "bin" </> script]
+        ("#!/bin/sh\n" <> body <> "\n")
 
 -- | Script that writes a text to the outputs of the renderer, which are beside the drawing.
 copying :: String -> String
