@@ -319,8 +319,7 @@ sharedNames =
       ]
     <> inGroup
       "drawings of other programs, which have no stage in common with the other type"
-      [ ("Piece", ["Drawing.Drawing", "Sheet.Sheet"]),
-        ("Shape", ["Draw.Scene", "Drawing.Drawing"])
+      [ ("Shape", ["Draw.Scene", "Drawing.Drawing"])
       ]
     <> inGroup
       "one concept at stages that follow one another"

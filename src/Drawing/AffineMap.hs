@@ -20,7 +20,7 @@ module Drawing.AffineMap
 where
 
 import Base.Quantity (Mm (..), Rad (..))
-import Drawing.Drawing (Ellipse (..), Piece (..), Shape (..), Spline (..))
+import Drawing.Drawing (Ellipse (..), PathPart (..), Shape (..), Spline (..))
 import Drawing.Ellipse qualified as Ellipse
 import Drawing.Tolerance qualified as Tolerance
 import Geometry.Carrier (Circle (Circle))
@@ -79,16 +79,16 @@ vector AffineMap {xx, xy, yx, yy} (Vec x y) = Vec.vec (xx * x + xy * y) (yx * x 
 -- | The image of a shape.
 shape :: AffineMap -> Shape -> Shape
 shape m s = case s of
-  Path ends pieces -> Path ends (fmap (piece m) pieces)
+  Path ends parts -> Path ends (fmap (part m) parts)
   FullCircle (Circle c (Mm r)) -> wholeOf c (Vec.vec r 0) (Vec.vec 0 r)
   FullEllipse e -> let (u, v) = Ellipse.semiDiameters e in wholeOf (middle e) u v
   Dot p -> Dot (point m p)
   where
     wholeOf c u v = Ellipse.whole (point m c) (vector m u) (vector m v)
 
--- | The image of a piece of a path.
-piece :: AffineMap -> Piece -> Piece
-piece m p = case p of
+-- | The image of a part of a path.
+part :: AffineMap -> PathPart -> PathPart
+part m p = case p of
   Plain (Straight a b) -> Plain (Straight (point m a) (point m b))
   Plain Arc {start, end, centre, sweep = sweep@(Rad s)}
     | isSimilarity m ->

@@ -9,6 +9,7 @@ module Drawing.ClampedSpline
   )
 where
 
+import Base.Decimal qualified as Decimal
 import Base.Quantity (Mm (..))
 import Data.IntSet qualified as IntSet
 import Data.List.NonEmpty (NonEmpty (..))
@@ -16,9 +17,10 @@ import Data.List.NonEmpty qualified as NonEmpty
 import Data.Maybe (fromMaybe)
 import Data.Text (Text)
 import Data.Vector qualified as Vector
-import Drawing.Drawing (Piece (..), Shape (..), Spline (..))
+import Drawing.Drawing (PathPart (..), Shape (..), Spline (..))
 import Drawing.Tolerance qualified as Tolerance
 import Geometry.Polyarc (Ends (..))
+import Geometry.Tolerance qualified as Geometry
 import Geometry.Vec (Point)
 import Geometry.Vec qualified as Vec
 
@@ -33,7 +35,8 @@ data Net = Net {knotsOf :: Vector.Vector Double, controlsOf :: Vector.Vector Con
 -- that the file calls the spline closed. The reason in 'Left' if the numbers make no spline.
 fromKnots :: Bool -> Int -> [Double] -> [Point] -> Maybe [Double] -> Either Text Shape
 fromKnots isClosed degree knots points weights
-  | degree < 1 || degree > Tolerance.mostDegree = Left "its degree is not 1 to 25"
+  | degree < 1 || degree > Geometry.largestDegree =
+    Left ("its degree is not 1 to " <> Decimal.whole Geometry.largestDegree)
   | count <= degree = Left "it has too few control points"
   | Vector.length knotVector /= count + degree + 1 =
     Left "the count of its knots does not fit the count of its control points"

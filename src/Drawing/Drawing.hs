@@ -4,7 +4,7 @@ module Drawing.Drawing
   ( Drawing (..),
     Entity (..),
     Shape (..),
-    Piece (..),
+    PathPart (..),
     Ellipse (..),
     ellipsePoint,
     Spline (..),
@@ -51,19 +51,19 @@ data Entity = Entity
 
 -- | The shape of an entity.
 data Shape
-  = -- | consecutive pieces; each begins where the one before it ends
-    Path Ends (NonEmpty Piece)
+  = -- | consecutive parts; each begins where the one before it ends
+    Path Ends (NonEmpty PathPart)
   | FullCircle Circle
   | FullEllipse Ellipse
   | Dot Point
   deriving stock (Eq, Show)
 
--- | A piece of a path.
-data Piece
+-- | A part of a path.
+data PathPart
   = -- | a line or an arc
     Plain Segment
   | -- | a part of an ellipse, from one parameter in radians to another ('ellipsePoint'). The second
-    -- one is smaller if the piece runs clockwise
+    -- one is smaller if the part runs clockwise
     EllipseArc Ellipse Double Double
   | -- | a Bézier curve of degree 2 or higher: its control points, and their weights if it is
     -- rational

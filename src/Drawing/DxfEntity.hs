@@ -18,7 +18,7 @@ import Data.Text (Text)
 import Drawing.AffineMap (AffineMap)
 import Drawing.AffineMap qualified as AffineMap
 import Drawing.ClampedSpline qualified as ClampedSpline
-import Drawing.Drawing (Piece (..), RemarkKind (..), Shape (..))
+import Drawing.Drawing (PathPart (..), RemarkKind (..), Shape (..))
 import Drawing.DxfRecord (Record (..))
 import Drawing.DxfRecord qualified as DxfRecord
 import Drawing.Ellipse qualified as Ellipse
@@ -185,16 +185,16 @@ polyline record records = do
 chain :: Bool -> [Vertex] -> Either Text Shape
 chain isClosed vertices = case vertices of
   first@(Vertex p _) : rest@(_ : _) ->
-    let pieces = zipWith piece vertices rest
+    let parts = zipWith part vertices rest
         Vertex q b = last rest
         isBack = isClosed && q /= p
         ends = if isClosed || q == p then Closed else Open
-     in Right . Path ends $ case pieces <> [piece (Vertex q b) first | isBack] of
+     in Right . Path ends $ case parts <> [part (Vertex q b) first | isBack] of
           a : others -> a :| others
-          [] -> piece first first :| []
+          [] -> part first first :| []
   _ -> Left "it has fewer than two vertices"
   where
-    piece (Vertex a bulge) (Vertex b _) = Plain (Segment.fromBulge a b bulge)
+    part (Vertex a bulge) (Vertex b _) = Plain (Segment.fromBulge a b bulge)
 
 isSet :: Int -> Int -> Bool
 isSet flag flags = odd (flags `div` flag)

@@ -10,7 +10,7 @@ module Drawing.Ellipse
 where
 
 import Base.Quantity (Mm (..), Rad (..))
-import Drawing.Drawing (Ellipse (..), Piece (..), Shape (..))
+import Drawing.Drawing (Ellipse (..), PathPart (..), Shape (..))
 import Drawing.Tolerance qualified as Tolerance
 import Geometry.Carrier (Circle (Circle))
 import Geometry.Segment (Segment (..))
@@ -27,7 +27,7 @@ whole c u v
     axes = principal c u v
 
 -- | The part of the ellipse from one parameter t to another; an arc if both axes are equal.
-part :: Point -> Vec -> Vec -> Double -> Double -> Piece
+part :: Point -> Vec -> Vec -> Double -> Double -> PathPart
 part c u v from to
   | isRound axes =
     Plain Arc {start = at from, end = at to, centre = c, sweep = Rad (turn * (to - from))}

@@ -6,7 +6,7 @@ where
 
 import Data.List.NonEmpty (NonEmpty (..))
 import Data.List.NonEmpty qualified as NonEmpty
-import Drawing.Drawing (Piece (..))
+import Drawing.Drawing (PathPart (..))
 import Drawing.Outline (DrawnPart (..), Outline (..))
 import Drawing.PathPart qualified as PathPart
 import Geometry.Index.BoundingBox (BoundingBox)
@@ -28,7 +28,7 @@ depths outlines =
           WindingNumber.encloses around p
       ]
     | (k, o) <- zip [0 :: Int ..] outlines,
-      let p = PathPart.start (piece (NonEmpty.head (pieces o)))
+      let p = PathPart.start (part (NonEmpty.head (parts o)))
   ]
   where
     index =
@@ -44,11 +44,11 @@ boxOf segments = foldr1 BoundingBox.union (fmap BoundingBox.ofSegment segments)
 
 -- | The segments of an outline, with curves replaced by polygons.
 segmentsOf :: Outline -> NonEmpty Segment
-segmentsOf o = case concatMap (ofPiece . piece) (NonEmpty.toList (pieces o)) of
+segmentsOf o = case concatMap (ofPiece . part) (NonEmpty.toList (parts o)) of
   s : more -> s :| more
-  [] -> let p = PathPart.start (piece (NonEmpty.head (pieces o))) in Straight p p :| []
+  [] -> let p = PathPart.start (part (NonEmpty.head (parts o))) in Straight p p :| []
 
-ofPiece :: Piece -> [Segment]
+ofPiece :: PathPart -> [Segment]
 ofPiece p = case p of
   Plain s -> [s]
   _ -> let ps = PathPart.points p in zipWith Straight ps (drop 1 ps)

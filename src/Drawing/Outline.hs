@@ -1,6 +1,6 @@
 -- | Outlines: the paths of a drawing, joined at their ends.
 --
--- A path is a chain of pieces. Two ends are joined if they are within a tolerance of each other and
+-- A path is a chain of parts. Two ends are joined if they are within a tolerance of each other and
 -- no third end is. Where three ends meet, the drawing does not say which of them belong together,
 -- so that is a fault. Of two paths that coincide, the later one is left out.
 module Drawing.Outline
@@ -24,7 +24,7 @@ import Data.Map.Strict (Map)
 import Data.Map.Strict qualified as Map
 import Data.Maybe (fromMaybe, listToMaybe, mapMaybe)
 import Data.Semigroup (sconcat)
-import Drawing.Drawing (Ellipse, Entity, Piece (..), Shape (..))
+import Drawing.Drawing (Ellipse, Entity, PathPart (..), Shape (..))
 import Drawing.Drawing qualified as Drawing
 import Drawing.OutlineTolerance qualified as Tolerance
 import Drawing.PathPart qualified as PathPart
@@ -38,13 +38,13 @@ import Geometry.Segment qualified as Segment
 import Geometry.Vec (Point)
 import Geometry.Vec qualified as Vec
 
--- | A chain of pieces; each begins exactly where the one before it ends. The last piece of a closed
+-- | A chain of parts; each begins exactly where the one before it ends. The last part of a closed
 -- outline ends where the first one begins.
-data Outline = Outline {ends :: Ends, pieces :: NonEmpty DrawnPart}
+data Outline = Outline {ends :: Ends, parts :: NonEmpty DrawnPart}
   deriving stock (Eq, Show)
 
--- | A piece of an outline, with its entity.
-data DrawnPart = DrawnPart {entity :: Entity, piece :: Piece}
+-- | A part of an outline, with its entity.
+data DrawnPart = DrawnPart {entity :: Entity, part :: PathPart}
   deriving stock (Eq, Show)
 
 -- | The outlines of some entities.
@@ -71,7 +71,7 @@ data JoinFault
     Overlap Entity Entity Mm Point
   deriving stock (Eq, Show)
 
--- | A chain of pieces between two free ends.
+-- | A chain of parts between two free ends.
 data Chain = Chain {first :: Point, final :: Point, links :: NonEmpty DrawnPart}
 
 -- | Joins the paths of some entities. Ends within the tolerance of each other are joined.
@@ -81,7 +81,7 @@ joined tolerance entities =
     { outlines = map snd (sortOn fst (zip (map lineOf made) made)),
       gaps = concatMap snd closings,
       repeated = [(e, original) | (e, Just original) <- marked],
-      faults = branches <> overlaps tolerance (concatMap (NonEmpty.toList . pieces) made)
+      faults = branches <> overlaps tolerance (concatMap (NonEmpty.toList . parts) made)
     }
   where
     marked = withOriginals entities
@@ -91,7 +91,7 @@ joined tolerance entities =
     (partners, branches) = partnersOf tolerance chains
     closings = map closed (walks chains partners)
     made = whole <> map fst closings
-    lineOf o = Drawing.line (entity (NonEmpty.head (pieces o)))
+    lineOf o = Drawing.line (entity (NonEmpty.head (parts o)))
     closed = withoutGaps
 
 -- | An entity that is an outline by itself.
@@ -106,7 +106,7 @@ wholeOutline e = case Drawing.shape e of
   where
     alone p = Just (Outline Closed (DrawnPart e p :| []))
 
-wholeEllipse :: Ellipse -> Piece
+wholeEllipse :: Ellipse -> PathPart
 wholeEllipse ellipse = EllipseArc ellipse 0 (2 * pi)
 
 openChain :: Entity -> Maybe Chain
@@ -198,7 +198,7 @@ walks chains partners = open free IntSet.empty
 backwards :: Chain -> Chain
 backwards (Chain p q ls) = Chain q p (NonEmpty.reverse (fmap back ls))
   where
-    back l = l {piece = PathPart.reversed (piece l)}
+    back l = l {part = PathPart.reversed (part l)}
 
 -- | The outline of joined chains, with the gaps between them closed.
 withoutGaps :: (Ends, NonEmpty Chain) -> (Outline, [ClosedGap])
@@ -206,26 +206,26 @@ withoutGaps (ends, chains) =
   ( Outline ends (sconcat (NonEmpty.zipWith between (NonEmpty.zip starts stops) list)),
     [ ClosedGap {width, before = entity a, after = entity b, joint = p}
       | (a, b, p) <- joints,
-        let width = Vec.distance (PathPart.end (piece a)) (PathPart.start (piece b)),
+        let width = Vec.distance (PathPart.end (part a)) (PathPart.start (part b)),
         width > Tolerance.same
     ]
   )
   where
     list = sconcat (fmap links chains)
     following = NonEmpty.tail list <> [NonEmpty.head list | ends == Closed]
-    joints = [(a, b, jointOf (piece a) (piece b)) | (a, b) <- zip (NonEmpty.toList list) following]
+    joints = [(a, b, jointOf (part a) (part b)) | (a, b) <- zip (NonEmpty.toList list) following]
     places = [p | (_, _, p) <- joints]
-    ownStart = PathPart.start (piece (NonEmpty.head list))
-    ownEnd = PathPart.end (piece (NonEmpty.last list))
+    ownStart = PathPart.start (part (NonEmpty.head list))
+    ownEnd = PathPart.end (part (NonEmpty.last list))
     begin = if ends == Closed then fromMaybe ownStart (listToMaybe (reverse places)) else ownStart
     starts = begin :| places
     stops = foldr NonEmpty.cons (ownEnd :| []) places
-    between (p, q) l = fmap (\moved -> l {piece = moved}) (PathPart.withEnds p q (piece l))
+    between (p, q) l = fmap (\moved -> l {part = moved}) (PathPart.withEnds p q (part l))
 
--- | The joint between the end of a piece and the start of the next one. Ends that count as the same
+-- | The joint between the end of a part and the start of the next one. Ends that count as the same
 -- meet at the end of a line, whose numbers are those of the file. Otherwise the joint of a line and
--- another piece lies at the end of the other piece, and that of two lines in the middle of the gap.
-jointOf :: Piece -> Piece -> Point
+-- another part lies at the end of the other part, and that of two lines in the middle of the gap.
+jointOf :: PathPart -> PathPart -> Point
 jointOf a b
   | p == q = p
   | Vec.distance p q <= Tolerance.same = if isLine b && not (isLine a) then q else p
@@ -298,7 +298,7 @@ overlaps tolerance list =
       long > tolerance
   ]
   where
-    plain = [(k, l, s) | (k, l@DrawnPart {piece = Plain s}) <- zip [0 :: Int ..] list]
+    plain = [(k, l, s) | (k, l@DrawnPart {part = Plain s}) <- zip [0 :: Int ..] list]
     index = BoxTree.index (\(_, _, s) -> BoundingBox.ofSegment s) plain
 
 -- | The length and the middle of the part that two segments have in common; Nothing if this is at

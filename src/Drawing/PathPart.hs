@@ -1,4 +1,4 @@
--- | Pieces of paths: their ends, their reversal, and the moving of their ends.
+-- | Parts of paths: their ends, their reversal, and the moving of their ends.
 module Drawing.PathPart
   ( start,
     end,
@@ -10,33 +10,36 @@ module Drawing.PathPart
   )
 where
 
+import Base.Quantity (Rad (..))
 import Data.List.NonEmpty (NonEmpty (..))
 import Data.List.NonEmpty qualified as NonEmpty
-import Data.Vector.Unboxed qualified as Vector
-import Drawing.Drawing (Ellipse (..), Piece (..), Spline (..), ellipsePoint)
+import Data.Vector qualified as Vector
+import Drawing.Drawing (Ellipse (..), PathPart (..), Spline (..), ellipsePoint)
 import Drawing.OutlineTolerance qualified as Tolerance
+import Geometry.Curve qualified as Curve
+import Geometry.Curve.Bezier qualified as Bezier
 import Geometry.Segment (Segment (Arc, Straight))
 import Geometry.Segment qualified as Segment
 import Geometry.Vec (Point)
 import Geometry.Vec qualified as Vec
 
--- | The first and the last point of a piece.
-start, end :: Piece -> Point
-start piece = case piece of
+-- | The first and the last point of a part.
+start, end :: PathPart -> Point
+start part = case part of
   Plain s -> Segment.start s
   EllipseArc e from _ -> ellipsePoint e from
   Bezier ps _ -> NonEmpty.head ps
   BSpline s -> NonEmpty.head (controls s)
-end piece = case piece of
+end part = case part of
   Plain s -> Segment.end s
   EllipseArc e _ to -> ellipsePoint e to
   Bezier ps _ -> NonEmpty.last ps
   BSpline s -> NonEmpty.last (controls s)
 
--- | A point between the ends of a piece that is the same for the reversed piece: the middle of a
+-- | A point between the ends of a part that is the same for the reversed part: the middle of a
 -- line, of an arc and of a part of an ellipse, the mean of the control points of a curve.
-middlePoint :: Piece -> Point
-middlePoint piece = case piece of
+middlePoint :: PathPart -> Point
+middlePoint part = case part of
   Plain s -> Segment.at 0.5 s
   EllipseArc e from to -> ellipsePoint e ((from + to) / 2)
   Bezier ps _ -> mean ps
@@ -46,9 +49,9 @@ middlePoint piece = case piece of
       let n = fromIntegral (NonEmpty.length ps)
        in Vec.point (sum (fmap Vec.x ps) / n) (sum (fmap Vec.y ps) / n)
 
--- | The piece in the opposite direction.
-reversed :: Piece -> Piece
-reversed piece = case piece of
+-- | The part in the opposite direction.
+reversed :: PathPart -> PathPart
+reversed part = case part of
   Plain s -> Plain (Segment.reverse s)
   EllipseArc e from to -> EllipseArc e to from
   Bezier ps weights -> Bezier (NonEmpty.reverse ps) (NonEmpty.reverse <$> weights)
@@ -60,13 +63,13 @@ reversed piece = case piece of
           weights = NonEmpty.reverse <$> weights s
         }
 
--- | Pieces from one point to another instead of a piece whose ends are near to these points. A line
+-- | Parts from one point to another instead of a part whose ends are near to these points. A line
 -- stays a line. An arc keeps its sweep, and its centre if only rounding moves its ends. Curves move
 -- their first and last control points. A part of an ellipse becomes Bézier curves.
-withEnds :: Point -> Point -> Piece -> NonEmpty Piece
-withEnds p q piece
-  | p == start piece && q == end piece = piece :| []
-  | otherwise = case piece of
+withEnds :: Point -> Point -> PathPart -> NonEmpty PathPart
+withEnds p q part
+  | p == start part && q == end part = part :| []
+  | otherwise = case part of
     Plain (Straight _ _) -> Plain (Straight p q) :| []
     Plain (Arc a b centre sweep)
       | isRounding p a && isRounding q b -> Plain (Arc p q centre sweep) :| []
@@ -75,11 +78,11 @@ withEnds p q piece
     BSpline s -> BSpline s {controls = between (controls s)} :| []
     EllipseArc e from to -> moved (ellipseCurves e from to)
   where
-    moved pieces = case pieces of
+    moved parts = case parts of
       only :| [] -> withEnds p q only
       first :| second : more ->
         withEnds p (end first) first <> withLast (second :| more)
-    withLast pieces = case pieces of
+    withLast parts = case parts of
       final :| [] -> withEnds (start final) q final
       one :| two : more -> one :| NonEmpty.toList (withLast (two :| more))
     isRounding a b = Vec.distance a b <= Tolerance.rounding
@@ -87,89 +90,36 @@ withEnds p q piece
       _ : more@(_ : _) -> p :| (init more <> [q])
       _ -> p :| [q]
 
--- | A part of an ellipse as rational Bézier curves of degree 2, each over at most a quarter. The
--- middle control point is where the tangents at the ends meet; its weight is the cosine of half of
--- the parameter's range (The NURBS Book, section 7.3).
-ellipseCurves :: Ellipse -> Double -> Double -> NonEmpty Piece
-ellipseCurves e from to = fmap curve (0 :| [1 .. count - 1])
+-- | Part of an ellipse from one parameter in radians to another, as Bézier curves
+-- ("Geometry.Curve.Bezier").
+ellipseCurves :: Ellipse -> Double -> Double -> NonEmpty PathPart
+ellipseCurves Ellipse {middle, major, minor, direction} from to =
+  fmap curve (Bezier.ellipse middle major minor direction (Rad from) (Rad to))
   where
-    count = max 1 (ceiling (abs (to - from) / (pi / 2) - 1e-9)) :: Int
-    step = (to - from) / fromIntegral count
-    weight = cos (step / 2)
-    curve k =
-      let a = from + fromIntegral k * step
-          outside = stretched (1 / weight) (ellipsePoint e (a + step / 2))
-       in Bezier
-            (ellipsePoint e a :| [outside, ellipsePoint e (a + step)])
-            (Just (1 :| [weight, 1]))
-    stretched factor p = Vec.shift (Vec.scale factor (Vec.to (middle e) p)) (middle e)
+    curve c = Bezier (listed middle (Bezier.controlPoints c)) (Just (listed 1 (Bezier.weights c)))
+    listed other list = case list of
+      first : more -> first :| more
+      [] -> other :| []
 
--- | Points along a piece, from its start to its end: of a line and an arc only the ends, otherwise
--- some on each stretch of a curve.
-points :: Piece -> [Point]
-points piece = case piece of
+-- | Points along a part, from its start to its end: of a line and an arc only the ends, of a curve
+-- some on each span. A curve that the geometry does not accept has its control points.
+points :: PathPart -> [Point]
+points part = case part of
   Plain s -> [Segment.start s, Segment.end s]
-  EllipseArc e from to -> [ellipsePoint e (from + t * (to - from)) | t <- shares]
+  EllipseArc Ellipse {middle, major, minor, direction} from to ->
+    along [] (Curve.ellipse middle major minor direction (Rad from) (Rad to))
   Bezier ps weights ->
-    let ws = maybe (repeat 1) NonEmpty.toList weights
-     in [deCasteljau t (zip (NonEmpty.toList ps) ws) | t <- shares]
-  BSpline s ->
-    let inner = dropRepeated (knots s)
-     in concat
-          [ [deBoor s (a + t * (b - a)) | t <- shares]
-            | (a, b) <- zip inner (drop 1 inner)
-          ]
+    let controls = NonEmpty.toList ps
+     in along controls (Curve.bezier (Vector.fromList controls) (weightsOf controls weights))
+  BSpline Spline {degree, knots, controls, weights} ->
+    let list = NonEmpty.toList controls
+     in case Curve.knotVector degree (length list) knots of
+          Right vector ->
+            along list (Curve.bspline vector (Vector.fromList list) (weightsOf list weights))
+          Left _ -> list
   where
-    shares = [k / 16 | k <- [0 .. 16]]
-    dropRepeated ks = case ks of
-      a : b : more
-        | a == b -> dropRepeated (b : more)
-        | otherwise -> a : dropRepeated (b : more)
-      _ -> ks
-
--- | The point of a rational Bézier curve at a parameter from 0 to 1, by de Casteljau's algorithm on
--- its control points with weights.
-deCasteljau :: Double -> [(Point, Double)] -> Point
-deCasteljau t = go . map weighted
-  where
-    go ps = case ps of
-      [p] -> projected p
-      [] -> Vec.point 0 0
-      _ -> go (zipWith (blended t) ps (drop 1 ps))
-
--- | The point of a B-spline at a parameter between its first and its last knot, by de Boor's
--- algorithm on its control points with weights.
-deBoor :: Spline -> Double -> Point
-deBoor Spline {degree, knots, controls, weights} u = go 1 affected
-  where
-    count = NonEmpty.length controls
-    ks = Vector.fromList knots
-    -- The index of the span of knots that holds the parameter.
-    at' = last (degree : [k | k <- [degree .. count - 1], ks Vector.! k <= u])
-    allControls = zip (NonEmpty.toList controls) (maybe (repeat 1) NonEmpty.toList weights)
-    affected = map weighted (take (degree + 1) (drop (at' - degree) allControls))
-    go level ps = case ps of
-      [p] -> projected p
-      [] -> Vec.point 0 0
-      _ ->
-        go
-          (level + 1)
-          [ blended (share (at' - degree + level + i) level) p q
-            | (i, p, q) <- zip3 [0 ..] ps (drop 1 ps)
-          ]
-    share i level =
-      let (a, b) = (ks Vector.! i, ks Vector.! (i + degree + 1 - level))
-       in if b > a then (u - a) / (b - a) else 0
-
--- | A point times its weight, with the weight.
-data Weighted = Weighted Double Double Double
-
-weighted :: (Point, Double) -> Weighted
-weighted (p, w) = Weighted (w * Vec.x p) (w * Vec.y p) w
-
-projected :: Weighted -> Point
-projected (Weighted x y w) = Vec.point (x / w) (y / w)
-
-blended :: Double -> Weighted -> Weighted -> Weighted
-blended t (Weighted a b c) (Weighted x y z) =
-  Weighted (a + t * (x - a)) (b + t * (y - b)) (c + t * (z - c))
+    weightsOf controls weights =
+      either (const Nothing) Just . Curve.weightsFor (length controls) . NonEmpty.toList =<< weights
+    along controls made = case made of
+      Right c -> [Curve.at c (k / 16) | k <- [0 .. 16 * Curve.domain c]]
+      Left _ -> controls

@@ -10,7 +10,7 @@ import Base.Quantity (Mm (..), Rad (..))
 import Data.List.NonEmpty (NonEmpty (..))
 import Data.List.NonEmpty qualified as NonEmpty
 import Data.Text (Text)
-import Drawing.Drawing (Ellipse (..), Piece (..), Shape (..), Spline (..))
+import Drawing.Drawing (Ellipse (..), PathPart (..), Shape (..), Spline (..))
 import Drawing.Tolerance qualified as Tolerance
 import Geometry.Carrier (Circle (Circle))
 import Geometry.Segment (Segment (..))
@@ -21,7 +21,7 @@ import Geometry.Vec qualified as Vec
 
 -- | The judgement of a shape.
 data Judgement
-  = -- | the shape without pieces of length 0, and with lines in place of arcs that are flat
+  = -- | the shape without parts of length 0, and with lines in place of arcs that are flat
     Usable Shape
   | -- | the reason why the shape is no curve
     Degenerate Text
@@ -40,14 +40,14 @@ judge shape = case shape of
     | not (isNearEllipse e) -> TooFar
     | minor e <= Mm 0 -> Degenerate "a semi-axis is 0"
     | otherwise -> Usable shape
-  Path ends pieces
+  Path ends parts
     | not (all isNearPiece straightened) -> TooFar
     | any isCollapsed straightened -> Degenerate "a semi-axis is 0"
     | otherwise -> case NonEmpty.filter (not . isPoint) straightened of
       first : rest -> Usable (Path ends (first :| rest))
       [] -> Degenerate "its length is 0"
     where
-      straightened = fmap withoutFlatArc pieces
+      straightened = fmap withoutFlatArc parts
 
 -- | The count of the points that a shape is made of, at least 1.
 size :: Shape -> Int
@@ -55,22 +55,22 @@ size shape = case shape of
   Dot _ -> 1
   FullCircle _ -> 1
   FullEllipse _ -> 1
-  Path _ pieces -> sum (fmap ofPiece pieces)
+  Path _ parts -> sum (fmap ofPiece parts)
   where
-    ofPiece piece = case piece of
+    ofPiece part = case part of
       Plain _ -> 1
       EllipseArc {} -> 1
       Bezier points _ -> length points
       BSpline s -> length (controls s)
 
 -- | The line between the ends of an arc that is as good as a line and whose radius is out of reach.
-withoutFlatArc :: Piece -> Piece
-withoutFlatArc piece = case piece of
+withoutFlatArc :: PathPart -> PathPart
+withoutFlatArc part = case part of
   Plain segment@Arc {start, end, centre}
     | not (isWithin (Segment.radius centre start)),
       sagittaOf segment <= Tolerance.flatArc ->
       Plain (Straight start end)
-  _ -> piece
+  _ -> part
 
 -- | The sagitta of an arc from its chord and its sweep, since the centre of a flat arc is inexact:
 -- @tan(sweep/4)·chord/2@.
@@ -79,8 +79,8 @@ sagittaOf segment = Mm (abs (Segment.bulge segment) * chord / 2)
   where
     Mm chord = Vec.distance (start segment) (end segment)
 
-isNearPiece :: Piece -> Bool
-isNearPiece piece = case piece of
+isNearPiece :: PathPart -> Bool
+isNearPiece part = case part of
   Plain (Straight a b) -> isNear a && isNear b
   Plain Arc {start, end, centre, sweep = Rad s} ->
     isNear start && isNear end && isNear centre
@@ -90,9 +90,9 @@ isNearPiece piece = case piece of
   Bezier points _ -> all isNear points
   BSpline s -> all isNear (controls s)
 
--- | True of a piece that is a point.
-isPoint :: Piece -> Bool
-isPoint piece = case piece of
+-- | True of a part that is a point.
+isPoint :: PathPart -> Bool
+isPoint part = case part of
   Plain (Straight a b) -> a == b
   Plain Arc {start, centre, sweep} -> start == centre || sweep == Rad 0
   EllipseArc _ from to -> from == to
@@ -100,8 +100,8 @@ isPoint piece = case piece of
   BSpline s -> let first :| rest = controls s in all (== first) rest
 
 -- | True of a part of an ellipse that is flattened to a line.
-isCollapsed :: Piece -> Bool
-isCollapsed piece = case piece of
+isCollapsed :: PathPart -> Bool
+isCollapsed part = case part of
   EllipseArc e from to -> from /= to && minor e <= Mm 0
   _ -> False
 

@@ -10,7 +10,7 @@ import Data.List.NonEmpty (NonEmpty (..))
 import Data.List.NonEmpty qualified as NonEmpty
 import Data.Text (Text)
 import Data.Text qualified as Text
-import Drawing.Drawing (Piece (..), Shape (..))
+import Drawing.Drawing (PathPart (..), Shape (..))
 import Drawing.Ellipse qualified as Ellipse
 import Drawing.Number qualified as Number
 import Drawing.SvgNumber (skipBlanks, skipComma)
@@ -23,12 +23,12 @@ import Geometry.Vec qualified as Vec
 data Pen = Pen
   { -- | the point at which the present subpath begins
     origin :: Point,
-    -- | the end of the last piece
+    -- | the end of the last part
     current :: Point,
     -- | the last control point of the command before, if it was a cubic or a quadratic curve
     control :: Control,
-    -- | the pieces of the present subpath in reverse
-    pieces :: [Piece],
+    -- | the parts of the present subpath in reverse
+    parts :: [PathPart],
     -- | the subpaths before, in reverse
     subpaths :: [Shape]
   }
@@ -114,24 +114,24 @@ command pen letter text = case letter of
 countedFrom :: Point -> Point -> Point
 countedFrom p = Vec.shift (Vec.to (Vec.point 0 0) p)
 
--- | The pen after a piece that ends at a point.
-drawn :: Piece -> Point -> Control -> Pen -> Pen
-drawn piece end control pen = pen {current = end, control, pieces = piece : pieces pen}
+-- | The pen after a part that ends at a point.
+drawn :: PathPart -> Point -> Control -> Pen -> Pen
+drawn part end control pen = pen {current = end, control, parts = part : parts pen}
 
 -- | The pen after the subpath has been closed by a line to its beginning.
 closed :: Pen -> Pen
 closed pen = (finished Closed back) {current = origin pen, control = NoControl}
   where
     back
-      | current pen == origin pen || null (pieces pen) = pen
+      | current pen == origin pen || null (parts pen) = pen
       | otherwise = drawn (Plain (Straight (current pen) (origin pen))) (origin pen) NoControl pen
 
 -- | The pen with the present subpath among those before. A subpath that ends where it begins is
 -- closed, too.
 finished :: Ends -> Pen -> Pen
-finished ends pen = case NonEmpty.nonEmpty (reverse (pieces pen)) of
+finished ends pen = case NonEmpty.nonEmpty (reverse (parts pen)) of
   Nothing -> pen
-  Just whole -> pen {pieces = [], subpaths = Path really whole : subpaths pen}
+  Just whole -> pen {parts = [], subpaths = Path really whole : subpaths pen}
   where
     really = if current pen == origin pen then Closed else ends
 
@@ -151,18 +151,18 @@ arc pen text place = do
       end = place p
       u = Vec.polar (Mm (abs rx)) (radians degrees)
       v = Vec.left (Vec.polar (Mm (abs ry)) (radians degrees))
-      piece
+      part
         | rx == 0 || ry == 0 = Just (Plain (Straight here end))
         | here == end = Nothing
         | otherwise = Just (ellipticalArc (u, v) (isLarge, isPositive) here end)
-  Right (maybe pen (\q -> drawn q end NoControl pen) piece, rest)
+  Right (maybe pen (\q -> drawn q end NoControl pen) part, rest)
 
 -- | The arc of an ellipse with two semi-axes from one point to another. In the coordinates of the
 -- semi-axes the ellipse is a circle of radius 1. The centre lies on the normal of the chord at its
 -- midpoint, on the left of the chord if the arc is small and runs from x to y, or large and runs
 -- the other way. Semi-axes that are too short for the chord are lengthened (SVG 1.1, section
 -- F.6.6).
-ellipticalArc :: (Vec, Vec) -> (Bool, Bool) -> Point -> Point -> Piece
+ellipticalArc :: (Vec, Vec) -> (Bool, Bool) -> Point -> Point -> PathPart
 ellipticalArc (u, v) (isLarge, isPositive) start end =
   arcPiece (start, end) centre (scaled u, scaled v) from (from + turn)
   where
@@ -185,10 +185,10 @@ ellipticalArc (u, v) (isLarge, isPositive) start end =
     combined (Vec.Vec x y) = Vec.add (Vec.scale x (scaled u)) (Vec.scale y (scaled v))
 
 -- | The part of an ellipse with conjugate semi-diameters between two parameters, with given ends.
-arcPiece :: (Point, Point) -> Point -> (Vec, Vec) -> Double -> Double -> Piece
+arcPiece :: (Point, Point) -> Point -> (Vec, Vec) -> Double -> Double -> PathPart
 arcPiece (start, end) centre (u, v) from to = case Ellipse.part centre u v from to of
   Plain segment -> Plain segment {start, end}
-  piece -> piece
+  part -> part
 
 -- Numbers -------------------------------------------------------------------------------------
 

@@ -9,7 +9,7 @@ import Base.Quantity (Mm (..))
 import Data.List.NonEmpty qualified as NonEmpty
 import Data.Maybe (fromMaybe)
 import Data.Text (Text)
-import Drawing.Drawing (Piece (..), Shape (..))
+import Drawing.Drawing (PathPart (..), Shape (..))
 import Drawing.Ellipse qualified as Ellipse
 import Drawing.Error (DrawingFault (..), Error (Error))
 import Drawing.SvgLength (Direction (..), Viewport)

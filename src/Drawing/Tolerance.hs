@@ -7,7 +7,6 @@ module Drawing.Tolerance
     mostElementDepth,
     mostEntityLength,
     mostExpansion,
-    mostDegree,
     mostDigits,
     mostErrors,
     mostNameLength,
@@ -46,10 +45,6 @@ mostEntityLength = 1000
 -- | The largest count of characters that all references to declared entities may have together.
 mostExpansion :: Int
 mostExpansion = 20000000
-
--- | The largest degree of a spline. Programs write 2 to 5, and some up to 25.
-mostDegree :: Int
-mostDegree = 25
 
 -- | The largest count of digits of a number.
 mostDigits :: Int

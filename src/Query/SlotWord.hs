@@ -68,8 +68,6 @@ entries keyword = case keyword of
   "param" -> [(keyword, ([], [])), ("=", (anything, []))]
   "curve" -> [(keyword, ([], [])), ("=", (value (Curve (Variable 0)), []))]
   "piece" -> pieceEntries
-  "contour" -> own [] (words' ["closed", "open"]) <> [("closed", ([], [])), ("open", ([], []))]
-  "table" -> own [] (words' ["from"])
   "assert" -> own anything (words' ["within"]) <> [("within", (anything, []))]
   "mill" -> onContour (words' sides)
   "turn" -> onContour (words' sides)
@@ -81,13 +79,27 @@ entries keyword = case keyword of
   "with" -> own (value Transformation) []
   "for" -> own [] (words' ["in"]) <> [("in", (repeated, []))]
   "if" -> own (value Boolean) [] <> [("else", (words' ["if"], []))]
-  _ -> clearingEntries keyword
+  _ -> drawnEntries keyword
   where
     own follows after = [(keyword, (follows, after))]
     body =
       own (value Contour) (words' ["from"])
         <> [("from", (value Type.len, words' ["to"])), ("to", (value Type.len, []))]
     onContour after = own (value Contour) after <> [(s, ([], [])) | s <- sides]
+
+-- | The entries of statements that may take something from a drawing, and those of
+-- 'clearingEntries'.
+drawnEntries :: Text -> [(Text, ([Slot], [Slot]))]
+drawnEntries keyword = case keyword of
+  "contour" -> named ["closed", "open", "from"] <> [("closed", ([], [])), ("open", ([], []))]
+  "contours" -> named ["from"]
+  "table" -> named ["from"]
+  _ -> clearingEntries keyword
+  where
+    named after =
+      [ (keyword, ([], words' after)),
+        ("from", ([], words' ["layer", "id", "class", "unit", "within"]))
+      ]
 
 -- | The entries of statements that clear pockets and surfaces, and those of 'commandEntries'.
 clearingEntries :: Text -> [(Text, ([Slot], [Slot]))]

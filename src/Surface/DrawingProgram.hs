@@ -93,7 +93,7 @@ layerText used (layer, outlines) = case traverse circleWithLine outlines of
       let wanted = if length outlines == 1 then base else base <> "_" <> Decimal.whole k
           name = fresh names wanted
        in (Set.insert name names, contourText name o)
-    circleWithLine o = (,NonEmpty.head (pieces o)) <$> FromDrawing.circleOf o
+    circleWithLine o = (,NonEmpty.head (parts o)) <$> FromDrawing.circleOf o
 
 -- | A contour, with a line for each item.
 contourText :: Text -> Outline -> [Text]

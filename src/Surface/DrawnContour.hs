@@ -18,7 +18,7 @@ import Data.Foldable (toList)
 import Data.List.NonEmpty (NonEmpty (..))
 import Data.List.NonEmpty qualified as NonEmpty
 import Data.Text (Text)
-import Drawing.Drawing (Ellipse (..), Piece (..), Spline (..))
+import Drawing.Drawing (Ellipse (..), PathPart (..), Spline (..))
 import Drawing.Outline (DrawnPart (..), Outline (..))
 import Drawing.OutlineTolerance qualified as Tolerance
 import Drawing.PathPart qualified as PathPart
@@ -31,14 +31,14 @@ import Surface.Syntax (Argument (Given), Closure, Expr, Expr_ (..), Item, Item_ 
 import Surface.Syntax qualified as Surface
 import Surface.Token (Unit (..))
 
--- | The items of the contour of an outline, each with its piece. @regionOf@ gives the region of a
--- piece. Lengths have the unit @unit@; the numbers are in mm.
+-- | The items of the contour of an outline, each with its part. @regionOf@ gives the region of a
+-- part. Lengths have the unit @unit@; the numbers are in mm.
 items :: (DrawnPart -> Region) -> Maybe Unit -> Outline -> [(DrawnPart, Item)]
-items regionOf unit outline = case NonEmpty.toList (pieces outline) of
-  [p] | ends outline == Closed -> [(p, element p e) | e <- wholeElement (at p) unit (piece p)]
+items regionOf unit outline = case NonEmpty.toList (parts outline) of
+  [p] | ends outline == Closed -> [(p, element p e) | e <- wholeElement (at p) unit (part p)]
   list ->
     concatMap ofPiece list
-      <> [ (p, element p (Nothing, point (at p) unit (PathPart.end (piece p))))
+      <> [ (p, element p (Nothing, point (at p) unit (PathPart.end (part p))))
            | ends outline == Open,
              p <- take 1 (reverse list)
          ]
@@ -46,8 +46,8 @@ items regionOf unit outline = case NonEmpty.toList (pieces outline) of
     at = regionOf
     element p (sense, e) = Located (at p) (Element (Located (at p) <$> sense) e [] Nothing)
     ofPiece p =
-      (p, element p (Nothing, point (at p) unit (PathPart.start (piece p)))) :
-        [(p, element p e) | e <- betweenEnds (at p) unit (piece p)]
+      (p, element p (Nothing, point (at p) unit (PathPart.start (part p)))) :
+        [(p, element p e) | e <- betweenEnds (at p) unit (part p)]
 
 -- | The closure of the contour of an outline.
 closure :: Outline -> Closure
@@ -55,9 +55,9 @@ closure outline = case ends outline of
   Closed -> Surface.Closed
   Open -> Surface.Open
 
--- | The elements of a piece that is closed by itself.
-wholeElement :: Region -> Maybe Unit -> Piece -> [(Maybe Surface.Sense, Expr)]
-wholeElement at unit piece = case piece of
+-- | The elements of a part that is closed by itself.
+wholeElement :: Region -> Maybe Unit -> PathPart -> [(Maybe Surface.Sense, Expr)]
+wholeElement at unit part = case part of
   EllipseArc Ellipse {middle, major, minor, direction = Rad a} _ _ ->
     [ ( Nothing,
         call
@@ -66,23 +66,23 @@ wholeElement at unit piece = case piece of
           ([point at unit middle, long major, long minor] <> [radians at a | a /= 0])
       )
     ]
-  _ -> betweenEnds at unit piece
+  _ -> betweenEnds at unit part
   where
     long (Mm v) = size at unit v
 
--- | The element between the ends of a piece; none for a line.
-betweenEnds :: Region -> Maybe Unit -> Piece -> [(Maybe Surface.Sense, Expr)]
-betweenEnds at unit piece = case piece of
+-- | The element between the ends of a part; none for a line.
+betweenEnds :: Region -> Maybe Unit -> PathPart -> [(Maybe Surface.Sense, Expr)]
+betweenEnds at unit part = case part of
   Plain (Straight _ _) -> []
   Plain (Arc begin _ centre (Rad sweep)) ->
     let Mm r = Segment.radius centre begin
         sense = if sweep > 0 then Surface.CounterClockwise else Surface.Clockwise
      in [(Just sense, call at "circle" [point at unit centre, size at unit r])]
-  _ -> [(Nothing, curveOf at unit piece)]
+  _ -> [(Nothing, curveOf at unit part)]
 
--- | The call that makes the curve of a piece.
-curveOf :: Region -> Maybe Unit -> Piece -> Expr
-curveOf at unit piece = case piece of
+-- | The call that makes the curve of a part.
+curveOf :: Region -> Maybe Unit -> PathPart -> Expr
+curveOf at unit part = case part of
   Plain s -> call at "line" [point at unit (Segment.start s), point at unit (Segment.end s)]
   EllipseArc Ellipse {middle, major = Mm a, minor = Mm b, direction = Rad turned} from to ->
     call at "ellipse" $

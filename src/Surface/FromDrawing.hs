@@ -28,7 +28,14 @@ import Data.Set qualified as Set
 import Data.Text (Text)
 import Data.Text qualified as Text
 import Data.Vector qualified as Vector
-import Drawing.Drawing (Drawing (..), Entity, Piece (..), Remark (..), RemarkKind (..), Shape (..))
+import Drawing.Drawing
+  ( Drawing (..),
+    Entity,
+    PathPart (..),
+    Remark (..),
+    RemarkKind (..),
+    Shape (..),
+  )
 import Drawing.Drawing qualified as Drawing
 import Drawing.Dxf qualified as Dxf
 import Drawing.Error qualified as FileError
@@ -219,7 +226,7 @@ contours text at file asked name (tolerance, chosen) = case asked of
           given = made
         }
     regionOf = regionOfLine text . Drawing.line
-    firstOf o = regionOf (entity (NonEmpty.head (pieces o)))
+    firstOf o = regionOf (entity (NonEmpty.head (parts o)))
     contourOf n o =
       Located
         at
@@ -231,8 +238,8 @@ contours text at file asked name (tolerance, chosen) = case asked of
     openFault o =
       OpenOutline
         (firstOf o)
-        (PathPart.start (piece (NonEmpty.head (pieces o))))
-        (PathPart.end (piece (NonEmpty.last (pieces o))))
+        (PathPart.start (part (NonEmpty.head (parts o))))
+        (PathPart.end (part (NonEmpty.last (parts o))))
 
 -- | The contours of some closed outlines, and the region that they bound: the value of the name. An
 -- outline within an odd count of others is a hole.
@@ -281,9 +288,9 @@ remarksOf regionOf file joining =
 
 -- | The lines of a table with a row for each circle and each point among some entities: the
 -- coordinates of the centre, and the diameter, which is 0 for a point. @file@ is the region of the
--- name of the file.
-tableLines :: DrawingText -> Region -> [Entity] -> Converted [TableLine]
-tableLines text file chosen =
+-- name of the file. Ends within @tolerance@ are joined, so that two arcs may make a circle.
+tableLines :: DrawingText -> Region -> (Mm, [Entity]) -> Converted [TableLine]
+tableLines text file (tolerance, chosen) =
   Converted
     { mistakes = [NoCircle file | null circles],
       notes =
@@ -293,19 +300,19 @@ tableLines text file chosen =
                  (Drawing.word (entity p) <> " is no circle, and is left out")
                | o <- outlines joining,
                  null (circleOf o),
-                 p <- take 1 (NonEmpty.toList (pieces o))
+                 p <- take 1 (NonEmpty.toList (parts o))
              ],
       given =
         if null circles then [] else header : [Located at (row at c r) | (at, c, r) <- circles]
     }
   where
     regionOf = regionOfLine text . Drawing.line
-    joining = Outline.joined Tolerance.joining chosen
+    joining = Outline.joined tolerance chosen
     dots = [(regionOf e, p, Mm 0) | e <- chosen, Dot p <- [Drawing.shape e]]
     circles = dots <> mapMaybe placed (outlines joining)
     placed o = do
       Circle c r <- circleOf o
-      Just (regionOf (entity (NonEmpty.head (pieces o))), c, r)
+      Just (regionOf (entity (NonEmpty.head (parts o))), c, r)
     header = Located file (Header (heading "x" :| [heading "y", heading "diameter"]))
     heading word = Heading (Located file (Name word)) Nothing
     row at c r =
@@ -315,7 +322,7 @@ tableLines text file chosen =
 
 -- | The circle of a closed outline that consists of arcs of one circle.
 circleOf :: Outline -> Maybe Circle
-circleOf o = case traverse (arcOf . piece) (pieces o) of
+circleOf o = case traverse (arcOf . part) (parts o) of
   Just ((c, r) :| more)
     | ends o == Polyarc.Closed && all (\(d, s) -> Vec.isNear c d && isEqual r s) more ->
       Just (Circle c r)

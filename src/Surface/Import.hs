@@ -189,7 +189,7 @@ replaceImports reader chain = fmap concat . mapM replace
               Nothing -> Located region (Broken (Just "table") (Just name))
           ]
       Located region (Table name (LinesFromDrawing part)) -> do
-        rows <- fromDrawing reader chain part $ \text nameAt (_, chosen) ->
+        rows <- fromDrawing reader chain part $ \text nameAt chosen ->
           FromDrawing.tableLines text nameAt chosen
         let table = maybe (Broken (Just "table") (Just name)) (Table name . WrittenLines) rows
         pure [Located region table]

@@ -45,15 +45,15 @@ spec = describe "affine maps of drawings" $ do
   where
     quarter = Arc (Vec.point 2 0) (Vec.point 0 2) (Vec.point 0 0) (Rad (pi / 2))
 
--- | The kind of a shape and of its pieces.
+-- | The kind of a shape and of its parts.
 kinds :: Shape -> [String]
 kinds s = case s of
-  Path _ pieces -> foldMap (pure . ofPiece) pieces
+  Path _ parts -> foldMap (pure . ofPiece) parts
   FullCircle _ -> ["circle"]
   FullEllipse _ -> ["ellipse"]
   Dot _ -> ["point"]
   where
-    ofPiece piece = case piece of
+    ofPiece part = case part of
       Plain Straight {} -> "line"
       Plain Arc {} -> "arc"
       EllipseArc {} -> "part of an ellipse"

@@ -52,7 +52,7 @@ spec = describe "clamped splines" $ do
                    Just "all its knots are equal",
                    Just "a weight is not positive",
                    Just "the count of its weights does not fit the count of its control points",
-                   Just "its degree is not 1 to 25",
+                   Just "its degree is not 1 to 20",
                    Just "it has a gap"
                  ]
   where

@@ -135,12 +135,12 @@ layerDifferences joinTolerance name (_, ExpectedLayer {loops, circles}) shapes =
 
 kindsOf :: Shape -> [Text]
 kindsOf s = case s of
-  Path _ pieces -> map ofPiece (NonEmpty.toList pieces)
+  Path _ parts -> map ofPiece (NonEmpty.toList parts)
   FullEllipse _ -> ["ellipse"]
   FullCircle _ -> []
   Dot _ -> []
   where
-    ofPiece piece = case piece of
+    ofPiece part = case part of
       Plain Straight {} -> "line"
       Plain Arc {} -> "arc"
       EllipseArc {} -> "ellipse"

@@ -9,7 +9,7 @@ import Base.Quantity (Mm (..), Rad (..))
 import Data.List (sort)
 import Data.List.NonEmpty (NonEmpty (..))
 import Data.List.NonEmpty qualified as NonEmpty
-import Drawing.Drawing (Entity (..), Piece (..), Shape (..))
+import Drawing.Drawing (Entity (..), PathPart (..), Shape (..))
 import Drawing.Nesting qualified as Nesting
 import Drawing.Outline (ClosedGap (..), DrawnPart (..), JoinFault (..), Joining (..), Outline (..))
 import Drawing.Outline qualified as Outline
@@ -35,21 +35,21 @@ spec = do
           let Joining {outlines, gaps, repeated, faults} = Outline.joined Tolerance.joining entities
            in conjoin
                 [ map ends outlines === map (const Closed) rings,
-                  sort (map (cornersOf . pieces) outlines)
+                  sort (map (cornersOf . parts) outlines)
                     === sort (map (sort . map (coordinates . PathPart.start)) rings),
                   counterexample (show (gaps, faults)) (null gaps && null faults && null repeated)
                 ]
   it
-    "ends are joined up to the distance, each gap is told with its width, and pieces follow one \
+    "ends are joined up to the distance, each gap is told with its width, and parts follow one \
     \another exactly (catches gaps that are closed silently)"
     $ property $
-      forAll (ring 1) $ \pieces' ->
+      forAll (ring 1) $ \parts' ->
         forAll (elements [0.004, 0.009, 0.011, 0.02]) $ \gap ->
-          let moved = case pieces' of
+          let moved = case parts' of
                 Plain (Straight p q) : more -> Plain (Straight (beside gap p) q) : more
-                _ -> pieces'
+                _ -> parts'
               Joining {outlines, gaps} = Outline.joined (Mm 0.01) (entitiesOf moved)
-           in isLine (take 1 pieces')
+           in isLine (take 1 parts')
                 ==> if gap < 0.01
                   then
                     conjoin
@@ -59,16 +59,16 @@ spec = do
                       ]
                   else conjoin [map ends outlines === [Open], gaps === []]
   it
-    "a third end at a joint, a piece along another one and a repeated entity are found (catches \
+    "a third end at a joint, a part along another one and a repeated entity are found (catches \
     \faults that are looked for at ends only)"
     $ property $
-      forAll (ring 1) $ \pieces' ->
-        forAll (choose (0, length pieces' - 1)) $ \k ->
-          let chosen = pieces' !! k
+      forAll (ring 1) $ \parts' ->
+        forAll (choose (0, length parts' - 1)) $ \k ->
+          let chosen = parts' !! k
               corner = PathPart.start chosen
               spur = Plain (Straight corner (beside 500 corner))
               part = Plain (Segment.between 0.2 0.7 (segmentOf chosen))
-              foundWith more = Outline.joined Tolerance.joining (entitiesOf (pieces' <> more))
+              foundWith more = Outline.joined Tolerance.joining (entitiesOf (parts' <> more))
            in conjoin
                 [ counterexample "branch" (any isBranch (faults (foundWith [spur]))),
                   counterexample "overlap" (any isOverlap (faults (foundWith [part]))),
@@ -102,12 +102,12 @@ spec = do
       Plain s -> s
       _ -> error "not a segment"
     follows o =
-      let list = NonEmpty.toList (fmap piece (pieces o))
+      let list = NonEmpty.toList (fmap part (parts o))
           starts = map PathPart.start list
        in map PathPart.end list === drop 1 starts <> take 1 starts
 
--- | The pieces of a ring of lines and arcs around (200·k, 0), each with an end at the next one.
-ring :: Int -> Gen [Piece]
+-- | The parts of a ring of lines and arcs around (200·k, 0), each with an end at the next one.
+ring :: Int -> Gen [PathPart]
 ring k = do
   count <- choose (3, 9)
   radii <- vectorOf count (choose (20, 60))
@@ -122,19 +122,19 @@ ring k = do
   where
     toRad = Rad
 
--- | Entities of one piece each.
-entitiesOf :: [Piece] -> [Entity]
+-- | Entities of one part each.
+entitiesOf :: [PathPart] -> [Entity]
 entitiesOf ps = [Entity k "LINE" "" [] [] (Path Open (p :| [])) | (k, p) <- zip [1 ..] ps]
 
--- | The pieces in a random order, each in a random direction, as entities.
-mixed :: [Piece] -> Gen [Entity]
+-- | The parts in a random order, each in a random direction, as entities.
+mixed :: [PathPart] -> Gen [Entity]
 mixed ps = do
   shuffled <- shuffle ps
   turned <- traverse (\p -> elements [p, PathPart.reversed p]) shuffled
   pure (entitiesOf turned)
 
 cornersOf :: NonEmpty DrawnPart -> [(Double, Double)]
-cornersOf = sort . map (coordinates . PathPart.start . piece) . NonEmpty.toList
+cornersOf = sort . map (coordinates . PathPart.start . part) . NonEmpty.toList
 
 coordinates :: Point -> (Double, Double)
 coordinates p = (rounded (Vec.x p), rounded (Vec.y p))

@@ -18,43 +18,43 @@ import Geometry.Segment qualified as Segment
 import Geometry.Vec (Point)
 import Geometry.Vec qualified as Vec
 
--- | The point of a piece at a share of its parameter, from 0 to 1.
-pieceAt :: Double -> Piece -> Point
-pieceAt t piece = case piece of
+-- | The point of a part at a share of its parameter, from 0 to 1.
+pieceAt :: Double -> PathPart -> Point
+pieceAt t part = case part of
   Plain segment -> Segment.at t segment
   EllipseArc e from to -> ellipsePoint e (from + t * (to - from))
   Bezier points weights -> deCasteljau t (weighted points weights)
   BSpline spline -> splineAt t spline
 
--- | The point of a shape at a share of its parameter: all pieces of a path have equal shares.
+-- | The point of a shape at a share of its parameter: all parts of a path have equal shares.
 shapeAt :: Double -> Shape -> Point
 shapeAt t shape = case shape of
-  Path _ pieces ->
-    let count = NonEmpty.length pieces
+  Path _ parts ->
+    let count = NonEmpty.length parts
         index = min (count - 1) (floor (t * fromIntegral count))
-     in pieceAt (t * fromIntegral count - fromIntegral index) (pieces NonEmpty.!! index)
+     in pieceAt (t * fromIntegral count - fromIntegral index) (parts NonEmpty.!! index)
   FullCircle (Circle c (Mm r)) ->
     Vec.shift (Vec.vec (r * cos (2 * pi * t)) (r * sin (2 * pi * t))) c
   FullEllipse e -> ellipsePoint e (2 * pi * t)
   Dot p -> p
 
--- | The ends of a piece.
-pieceEnds :: Piece -> [Point]
-pieceEnds piece = [pieceAt 0 piece, pieceAt 1 piece]
+-- | The ends of a part.
+pieceEnds :: PathPart -> [Point]
+pieceEnds part = [pieceAt 0 part, pieceAt 1 part]
 
 -- | The length of a shape in mm, by chords and Richardson extrapolation.
 lengthOf :: Shape -> Double
 lengthOf shape = case shape of
-  Path _ pieces -> sum (fmap ofPiece pieces)
+  Path _ parts -> sum (fmap ofPiece parts)
   FullCircle (Circle _ (Mm r)) -> 2 * pi * r
   FullEllipse _ -> chorded (\t -> shapeAt t shape) [0, 1]
   Dot _ -> 0
   where
-    ofPiece piece = case piece of
+    ofPiece part = case part of
       Plain segment -> let Mm l = Segment.length segment in l
       BSpline Spline {knots, degree} ->
-        chorded (`pieceAt` piece) (shares (drop degree (take (length knots - degree) knots)))
-      _ -> chorded (`pieceAt` piece) [0, 1]
+        chorded (`pieceAt` part) (shares (drop degree (take (length knots - degree) knots)))
+      _ -> chorded (`pieceAt` part) [0, 1]
     shares ts = [(t - head ts) / (last ts - head ts) | t <- ts]
 
 -- | The length of a curve that is smooth between consecutive parameters.

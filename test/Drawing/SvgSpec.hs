@@ -79,7 +79,7 @@ pathsOf = describe "paths" $ do
   it "begins a subpath where the closed one began" $
     shapes (path "M 1 1 h 2 v 2 z h -1")
       `shouldSatisfy` \case
-        [Path Closed _, Path Open (piece :| [])] -> piece == straight (1, -1) (0, -1)
+        [Path Closed _, Path Open (part :| [])] -> part == straight (1, -1) (0, -1)
         _ -> False
   it "reads flags of arcs that touch" $
     shapes (path "M0 0a5 5 0 0110 0")

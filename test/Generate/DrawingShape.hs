@@ -16,14 +16,14 @@ import Data.List.NonEmpty (NonEmpty (..))
 import Data.List.NonEmpty qualified as NonEmpty
 import Drawing.AffineMap (AffineMap, after)
 import Drawing.AffineMap qualified as AffineMap
-import Drawing.Drawing (Ellipse (Ellipse), Piece (..), Shape (..), Spline (Spline))
+import Drawing.Drawing (Ellipse (Ellipse), PathPart (..), Shape (..), Spline (Spline))
 import Geometry.Carrier (Circle (Circle))
 import Geometry.Polyarc (Ends (..))
 import Geometry.RandomSegment (point, segment)
 import Geometry.Vec qualified as Vec
 import Test.QuickCheck
 
--- | A shape of any kind. The pieces of a path need not join.
+-- | A shape of any kind. The parts of a path need not join.
 shape :: Gen Shape
 shape =
   oneof
@@ -33,12 +33,12 @@ shape =
       Dot <$> point
     ]
 
--- | A path of one to three pieces of any kinds.
+-- | A path of one to three parts of any kinds.
 path :: Gen Shape
-path = Path Open . NonEmpty.fromList <$> (choose (1, 3) >>= \n -> vectorOf n piece)
+path = Path Open . NonEmpty.fromList <$> (choose (1, 3) >>= \n -> vectorOf n part)
 
-piece :: Gen Piece
-piece =
+part :: Gen PathPart
+part =
   oneof
     [ Plain <$> segment,
       EllipseArc <$> ellipse <*> choose (-7, 0) <*> choose (0.1, 5),

@@ -19,7 +19,7 @@ import Data.Text qualified as Text
 import Data.Text.Encoding qualified as Encoding
 import Drawing.AffineMap (AffineMap, after)
 import Drawing.AffineMap qualified as AffineMap
-import Drawing.Drawing (Ellipse (Ellipse), Piece (..), Shape (..), Spline (Spline))
+import Drawing.Drawing (Ellipse (Ellipse), PathPart (..), Shape (..), Spline (Spline))
 import Generate.DrawingShape qualified as Shape
 import Geometry.Carrier (Circle (Circle))
 import Geometry.Polyarc (Ends (..))

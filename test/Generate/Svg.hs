@@ -18,7 +18,7 @@ import Data.Text qualified as Text
 import Data.Text.Encoding qualified as Encoding
 import Drawing.AffineMap (AffineMap (..), after)
 import Drawing.AffineMap qualified as AffineMap
-import Drawing.Drawing (Ellipse (Ellipse), Piece (..), Shape (..))
+import Drawing.Drawing (Ellipse (Ellipse), PathPart (..), Shape (..))
 import Generate.Dxf (Wanted (..))
 import Geometry.Carrier (Circle (Circle))
 import Geometry.Polyarc (Ends (..))
@@ -246,7 +246,7 @@ lines' = do
       ("polygon", attributesOf [("points", text)], chained Closed (points <> take 1 points))
     ]
 
-straight :: Point -> Point -> Piece
+straight :: Point -> Point -> PathPart
 straight a b = Plain (Straight a b)
 
 rectangle :: Gen Figure
@@ -296,24 +296,24 @@ subpath = do
   count <- choose (1, 5 :: Int)
   isClosed <- arbitrary
   let start = Vec.point x y
-  (texts, pieces, end) <- follow count start Nothing
+  (texts, parts, end) <- follow count start Nothing
   z <- elements ["z", " Z"]
   let back = [straight end start | isClosed, end /= start]
   pure
     ( "M" <> xText <> "," <> yText <> concat texts <> (if isClosed then z else ""),
-      Path (if isClosed then Closed else Open) (NonEmpty.fromList (pieces <> back))
+      Path (if isClosed then Closed else Open) (NonEmpty.fromList (parts <> back))
     )
 
 -- | Commands from a point on, given the last control point of a smooth curve.
-follow :: Int -> Point -> Maybe (Bool, Point) -> Gen ([String], [Piece], Point)
+follow :: Int -> Point -> Maybe (Bool, Point) -> Gen ([String], [PathPart], Point)
 follow count here control
   | count == 0 = pure ([], [], here)
   | otherwise = do
-    (text, piece, end, next) <- command here control
-    (texts, pieces, final) <- follow (count - 1) end next
-    pure (text : texts, piece : pieces, final)
+    (text, part, end, next) <- command here control
+    (texts, parts, final) <- follow (count - 1) end next
+    pure (text : texts, part : parts, final)
 
-type Command = (String, Piece, Point, Maybe (Bool, Point))
+type Command = (String, PathPart, Point, Maybe (Bool, Point))
 
 command :: Point -> Maybe (Bool, Point) -> Gen Command
 command here control = do

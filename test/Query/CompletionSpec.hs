@@ -99,7 +99,9 @@ words' :: Spec
 words' = do
   it "offers the words of statements and settings" $ do
     labels (drawn <> "mill rim ^") `shouldBe` ["outside", "inside", "left", "right", "on"]
-    labels "part p\ncontour a ^" `shouldBe` ["closed", "open"]
+    labels "part p\ncontour a ^" `shouldBe` ["closed", "open", "from"]
+    labels "part p\ncontours a ^" `shouldBe` ["from"]
+    labels "part p\ntable t from \"a.dxf\" ^" `shouldBe` ["layer", "id", "class", "unit", "within"]
     labels "part p\nspindle ^" `shouldBe` ["cw", "ccw", "off", "manual"]
     labels "part p\nlet v = 180 m/min\nspindle cw v ^" `shouldBe` ["limit"]
     labels "part p\noptional ^" `shouldBe` ["stop"]
