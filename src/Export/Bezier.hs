@@ -21,10 +21,8 @@ import Data.List (minimumBy)
 import Data.List.NonEmpty (NonEmpty (..))
 import Data.Ord (comparing)
 import Geometry.Curve.Span (Span (..))
-import Geometry.Curve.Span qualified as Span
 import Geometry.Curve.Spline (Cubic (..))
 import Geometry.Index.BoundingBox qualified as BoundingBox
-import Geometry.Numeric.TaylorExpansion qualified as TaylorExpansion
 import Geometry.Segment (Segment (Arc, Straight))
 import Geometry.Segment qualified as Segment
 import Geometry.Vec (Point)
@@ -34,43 +32,21 @@ import Geometry.Vec qualified as Vec
 data CubicBezier = CubicBezier Point Point Point Point
   deriving stock (Eq, Show)
 
--- | The curves of a span. A span of cubics is one curve, exactly. An arc is within @tolerance@ of
--- its curves.
-fromSpan :: Mm -> Span -> NonEmpty CubicBezier
+-- | Curves of a span. A span of cubics is one curve, exactly. An arc is within @tolerance@ of its
+-- curves. Nothing for another Bézier curve: 'Geometry.Curve.cubics' has the curves of these.
+fromSpan :: Mm -> Span -> Maybe (NonEmpty CubicBezier)
 fromSpan tolerance s = case s of
   Polynomial x y ->
     let (x0, x1, x2, x3) = controls x
         (y0, y1, y2, y3) = controls y
-     in CubicBezier (Vec.point x0 y0) (Vec.point x1 y1) (Vec.point x2 y2) (Vec.point x3 y3) :| []
-  Round arc -> alongArc tolerance (Mm 0) arc
-  Controlled _ -> alongSpan tolerance s
+     in Just
+          ( CubicBezier (Vec.point x0 y0) (Vec.point x1 y1) (Vec.point x2 y2) (Vec.point x3 y3)
+              :| []
+          )
+  Round arc -> Just (alongArc tolerance (Mm 0) arc)
+  Controlled _ -> Nothing
   where
     controls (Cubic a b c d) = (a, a + b / 3, a + (2 * b + c) / 3, a + b + c + d)
-
--- | Curves along a span of any kind, within @tolerance@ of it. Each has the points and the
--- derivatives of the span at both ends of an interval. An interval is halved until the curve and
--- the span are near to each other at three parameters between the ends.
-alongSpan :: Mm -> Span -> NonEmpty CubicBezier
-alongSpan (Mm tolerance) s = go mostHalvings 0 1
-  where
-    go :: Int -> Double -> Double -> NonEmpty CubicBezier
-    go remaining a b
-      | remaining <= 0 || all isNear [0.25, 0.5, 0.75] = curve :| []
-      | otherwise = go (remaining - 1) a middle <> go (remaining - 1) middle b
-      where
-        middle = (a + b) / 2
-        curve = CubicBezier p (handle (1 / 3) p v) (handle (-1 / 3) q w) q
-        (p, v) = node a
-        (q, w) = node b
-        handle share from velocity = Vec.shift (Vec.scale (share * (b - a)) velocity) from
-        isNear t =
-          Vec.distance (at t curve) (fst (node (a + t * (b - a)))) <= Mm (tolerance / 2)
-    node t =
-      let e = Span.expansion 1 s t in (TaylorExpansion.position e, TaylorExpansion.velocity e)
-
--- | The largest count of successive halvings of an interval.
-mostHalvings :: Int
-mostHalvings = 20
 
 -- | Curves along a segment, of equal lengths. Each end of a curve lies on the segment, and so does
 -- the tangent there. Between them the curve is within @tolerance@ of the segment. The height along

@@ -67,7 +67,8 @@ piecesOf curve
   | null (Curve.layers curve) = joined (Vector.toList (BasisCurve.spans (Curve.base curve)))
   | otherwise = Nothing
   where
-    joined spans = sconcat <$> NonEmpty.nonEmpty (map (Bezier.fromSpan Tolerance.cubic) spans)
+    joined spans =
+      fmap sconcat . NonEmpty.nonEmpty =<< traverse (Bezier.fromSpan Tolerance.cubic) spans
 
 -- | The cubic curves along the segments of an element, from the start of the first segment to the
 -- end of the last one. @at@ is the region of the element. Nothing if the element has no curve, or
