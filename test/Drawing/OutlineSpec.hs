@@ -76,7 +76,7 @@ spec = do
                     let j = foundWith [PathPart.reversed chosen]
                      in (length (repeated j), length (faults j)) === (1, 0)
                 ]
-  it "the depth of an outline is the count of those around it (catches a box taken for an outline)" $
+  it "the depth of an outline is the count of those around it (catches boxes for outlines)" $
     property $
       forAll (vectorOf 6 (elements [0, 1])) $ \places ->
         let -- Circles about two centres, the larger ones around the smaller ones, and small circles
