@@ -136,7 +136,8 @@ rapid m f
   | Machine.hasRapidMotion m = f {motion = Rapid, feedCode = Machine.FeedCode 0}
   | otherwise = f {feedCode = Machine.rapidCode m}
 
--- | The tapes without two or three frames that lead back to where they begin, such as a peck.
+-- | The tapes without two or three frames that go down or up and lead back to where they begin, such
+-- as a peck. Level ones end a helix or a ramp, and the passes of the pocket cut their material too.
 thereAndBack :: [PlannedFrame] -> [[Frame]]
 thereAndBack ps =
   [ map frame (before <> after)
@@ -145,6 +146,7 @@ thereAndBack ps =
       let (some, after) = splitAt n rest,
       length some == n,
       sum (map (increment . frame) some) == 0,
+      any ((/= 0) . zOf . frame) some,
       any (\p -> isFeed (frame p) && Frame.isMoving (frame p)) some,
       all (null . commands . frame) some
   ]
