@@ -1,54 +1,88 @@
--- | The nesting of closed outlines: how many others each one lies in.
+-- | Closed outlines in the plane: the points at which they cross or touch, and how many
+-- others each one lies in.
 module Drawing.Nesting
-  ( depths,
+  ( ClosedBoundary,
+    boundary,
+    Crossing (..),
+    crossings,
+    depths,
   )
 where
 
-import Data.List.NonEmpty (NonEmpty (..))
+import Data.List.NonEmpty (NonEmpty)
 import Data.List.NonEmpty qualified as NonEmpty
-import Drawing.Drawing (PathPart (..))
+import Data.Map.Strict qualified as Map
+import Data.Maybe (mapMaybe)
+import Data.Semigroup (sconcat)
+import Drawing.Drawing (Entity)
 import Drawing.Outline (DrawnPart (..), Outline (..))
 import Drawing.PathPart qualified as PathPart
+import Geometry.Distance qualified as Distance
 import Geometry.Index.BoundingBox (BoundingBox)
 import Geometry.Index.BoundingBox qualified as BoundingBox
 import Geometry.Index.BoxTree qualified as BoxTree
 import Geometry.Polyarc (Ends (..), Polyarc (..))
-import Geometry.Segment (Segment (Straight))
+import Geometry.Segment (Segment)
+import Geometry.Segment qualified as Segment
+import Geometry.SelfIntersection qualified as SelfIntersection
+import Geometry.Vec (Point)
 import Geometry.WindingNumber qualified as WindingNumber
 
--- | Count of the other outlines around each outline. The outlines are closed, and no two of them
--- cross or touch. A curve counts as a polygon through points of it; an outline between
--- this polygon and the curve is not told apart.
-depths :: [Outline] -> [Int]
-depths outlines =
+-- | The lines and arcs along a closed outline, each with its entity.
+newtype ClosedBoundary = ClosedBoundary (NonEmpty (Entity, Segment))
+
+-- | The boundary of a closed outline.
+boundary :: Outline -> ClosedBoundary
+boundary o = ClosedBoundary (sconcat (fmap along (parts o)))
+  where
+    along p = (entity p,) <$> PathPart.segments (part p)
+
+-- | A point at which two entities cross or touch elsewhere than at a common end.
+data Crossing = Crossing Entity Entity Point
+  deriving stock (Eq, Show)
+
+-- | A crossing of each boundary with itself, and one of each two boundaries that cross or touch.
+crossings :: [ClosedBoundary] -> [Crossing]
+crossings bs =
+  mapMaybe withItself bs
+    <> Map.elems (Map.fromListWith (\_ earlier -> earlier) (concatMap withOthers numbered))
+  where
+    numbered =
+      [ (k, e, s)
+        | (k, ClosedBoundary list) <- zip [0 :: Int ..] bs,
+          (e, s) <- NonEmpty.toList list
+      ]
+    index = BoxTree.index (\(_, _, s) -> BoundingBox.ofSegment s) numbered
+    withOthers (k, a, s) =
+      [ ((k, j), Crossing a b p)
+        | (j, b, t) <- BoxTree.within (BoundingBox.ofSegment s) index,
+          j > k,
+          p <- take 1 (Distance.intersections s t)
+      ]
+    withItself (ClosedBoundary list) = do
+      (i, j, p) <- SelfIntersection.firstSelfIntersectionBy snd Closed list
+      pure (Crossing (fst (list NonEmpty.!! i)) (fst (list NonEmpty.!! j)) p)
+
+-- | Count of the other boundaries around each one, for boundaries without 'crossings'.
+depths :: [ClosedBoundary] -> [Int]
+depths bs =
   [ length
       [ ()
         | (j, _, around) <- BoxTree.within (BoundingBox.ofPoints p []) index,
           j /= k,
           WindingNumber.encloses around p
       ]
-    | (k, o) <- zip [0 :: Int ..] outlines,
-      let p = PathPart.start (part (NonEmpty.head (parts o)))
+    | (k, ClosedBoundary list) <- zip [0 :: Int ..] bs,
+      let p = Segment.start (snd (NonEmpty.head list))
   ]
   where
     index =
       BoxTree.index
         (\(_, box, _) -> box)
-        [ (k, boxOf s, Polyarc Closed s)
-          | (k, o) <- zip [0 :: Int ..] outlines,
-            let s = segmentsOf o
+        [ (k, boxOf segments, Polyarc Closed segments)
+          | (k, ClosedBoundary list) <- zip [0 :: Int ..] bs,
+            let segments = fmap snd list
         ]
 
 boxOf :: NonEmpty Segment -> BoundingBox
 boxOf segments = foldr1 BoundingBox.union (fmap BoundingBox.ofSegment segments)
-
--- | The segments of an outline, with curves replaced by polygons.
-segmentsOf :: Outline -> NonEmpty Segment
-segmentsOf o = case concatMap (ofPiece . part) (NonEmpty.toList (parts o)) of
-  s : more -> s :| more
-  [] -> let p = PathPart.start (part (NonEmpty.head (parts o))) in Straight p p :| []
-
-ofPiece :: PathPart -> [Segment]
-ofPiece p = case p of
-  Plain s -> [s]
-  _ -> let ps = PathPart.points p in zipWith Straight ps (drop 1 ps)

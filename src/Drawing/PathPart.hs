@@ -1,4 +1,4 @@
--- | Parts of paths: their ends, their reversal, and the moving of their ends.
+-- | Parts of paths: their ends, their reversal, the moving of their ends, and their segments.
 module Drawing.PathPart
   ( start,
     end,
@@ -6,7 +6,7 @@ module Drawing.PathPart
     reversed,
     withEnds,
     ellipseCurves,
-    points,
+    segments,
   )
 where
 
@@ -16,10 +16,13 @@ import Data.List.NonEmpty qualified as NonEmpty
 import Data.Vector qualified as Vector
 import Drawing.Drawing (Ellipse (..), PathPart (..), Spline (..), ellipsePoint)
 import Drawing.OutlineTolerance qualified as Tolerance
+import Geometry.ArcFitting.CurveFit qualified as CurveFit
 import Geometry.Curve qualified as Curve
 import Geometry.Curve.Bezier qualified as Bezier
+import Geometry.MeasuredPolyarc qualified as MeasuredPolyarc
 import Geometry.Segment (Segment (Arc, Straight))
 import Geometry.Segment qualified as Segment
+import Geometry.Tolerance qualified as Tolerance
 import Geometry.Vec (Point)
 import Geometry.Vec qualified as Vec
 
@@ -101,25 +104,30 @@ ellipseCurves Ellipse {middle, major, minor, direction} from to =
       first : more -> first :| more
       [] -> other :| []
 
--- | Points along a part, from its start to its end: of a line and an arc only the ends, of a curve
--- some on each span. A curve that the geometry does not accept has its control points.
-points :: PathPart -> [Point]
-points part = case part of
-  Plain s -> [Segment.start s, Segment.end s]
-  EllipseArc Ellipse {middle, major, minor, direction} from to ->
-    along [] (Curve.ellipse middle major minor direction (Rad from) (Rad to))
-  Bezier ps weights ->
-    let controls = NonEmpty.toList ps
-     in along controls (Curve.bezier (Vector.fromList controls) (weightsOf controls weights))
+-- | Lines and arcs along a part: its own, or those within 'Tolerance.curve' of a curve. A curve
+-- that the geometry does not accept has the lines between its control points.
+segments :: PathPart -> NonEmpty Segment
+segments part = case part of
+  Plain s -> s :| []
+  EllipseArc e@Ellipse {middle, major, minor, direction} from to ->
+    along
+      (ellipsePoint e from :| [ellipsePoint e to])
+      (Curve.ellipse middle major minor direction (Rad from) (Rad to))
+  Bezier controls weights ->
+    along controls (Curve.bezier (vectorOf controls) (weightsOf controls weights))
   BSpline Spline {degree, knots, controls, weights} ->
-    let list = NonEmpty.toList controls
-     in case Curve.knotVector degree (length list) knots of
-          Right vector ->
-            along list (Curve.bspline vector (Vector.fromList list) (weightsOf list weights))
-          Left _ -> list
+    case Curve.knotVector degree (NonEmpty.length controls) knots of
+      Right vector ->
+        along controls (Curve.bspline vector (vectorOf controls) (weightsOf controls weights))
+      Left _ -> polygon controls
   where
+    vectorOf = Vector.fromList . NonEmpty.toList
     weightsOf controls weights =
-      either (const Nothing) Just . Curve.weightsFor (length controls) . NonEmpty.toList =<< weights
+      either (const Nothing) Just . Curve.weightsFor (NonEmpty.length controls) . NonEmpty.toList
+        =<< weights
     along controls made = case made of
-      Right c -> [Curve.at c (k / 16) | k <- [0 .. 16 * Curve.domain c]]
-      Left _ -> controls
+      Right c -> MeasuredPolyarc.segments (CurveFit.approximate Tolerance.curve c)
+      Left _ -> polygon controls
+    polygon ps = case NonEmpty.tail ps of
+      q : more -> NonEmpty.zipWith Straight ps (q :| more)
+      [] -> Straight (NonEmpty.head ps) (NonEmpty.head ps) :| []

@@ -18,7 +18,6 @@ module Part.Curve
     ends,
     reversed,
     transformed,
-    parametric,
     alongPolyarc,
     xRange,
     spansOfSections,
@@ -28,17 +27,13 @@ where
 import Base.Name (Name)
 import Base.NumberTable (NumberTable)
 import Base.NumberTable qualified as NumberTable
-import Base.Quantity (Mm (..), Rad (..), minus, times)
+import Base.Quantity (Mm (..), Rad (..))
 import Data.List.NonEmpty (NonEmpty (..))
 import Data.List.NonEmpty qualified as NonEmpty
-import Data.Semigroup (sconcat)
 import Data.Vector (Vector)
 import Data.Vector qualified as Vector
-import Geometry.ArcFitting.CubicFit qualified as CubicFit
-import Geometry.ArcFitting.ParametricFit (ParametricCurve (..))
-import Geometry.ArcFitting.ParametricFit qualified as ParametricFit
-import Geometry.ArcFitting.PolyarcFit qualified as PolyarcFit
-import Geometry.Curve (Approach (..), SpanShape (..))
+import Geometry.ArcFitting.CurveFit qualified as CurveFit
+import Geometry.Curve (SpanShape (..))
 import Geometry.Curve qualified as Exact
 import Geometry.Curve.Section qualified as Section
 import Geometry.Curve.SectionFit qualified as SectionFit
@@ -102,44 +97,13 @@ data Fitting = Fitting
 -- @fitting@ is present if the curve consists of fitted sections.
 curve :: [(Name, Vector Double)] -> Maybe Fitting -> Exact.Curve -> PartCurve
 curve tableColumns fitting exact =
-  PartCurve {exact, tableColumns, fitting, approximation = arcsAlong Tolerance.curve exact}
-
--- | A polyarc within @tolerance@ of a curve. An unshifted curve of lines and arcs, with at least
--- one arc, is a polyarc already; only small kinks in it are smoothed.
--- "Geometry.ArcFitting.CubicFit" makes arcs of a curve for which 'Exact.cubics' finds cubic spans,
--- such as a spline. For any other curve "Geometry.ArcFitting.ParametricFit" makes the arcs.
-arcsAlong :: Mm -> Exact.Curve -> MeasuredPolyarc
-arcsAlong tolerance exact =
-  case (Exact.toSegments exact, cubics) of
-    (Just segments, _) -> MeasuredPolyarc.fromSegments (PolyarcFit.smoothed tolerance segments)
-    (Nothing, Just (off, xs, ys)) ->
-      MeasuredPolyarc.fromFlatPolyarc (CubicFit.approximate (minus tolerance off) xs ys)
-    (Nothing, Nothing) ->
-      MeasuredPolyarc.fromSegments (sconcat (fitted (parametric exact)))
+  PartCurve {exact, tableColumns, fitting, approximation}
   where
-    fitted = ParametricFit.approximate tolerance
-    cubics = Exact.cubics (times (0.5 * Tolerance.deviationShare) tolerance) exact
+    approximation = CurveFit.approximate Tolerance.curve exact
 
 -- | A curve that has no table: without columns and without a fit.
 plain :: Exact.Curve -> PartCurve
 plain = curve [] Nothing
-
--- | An exact curve in the form that "Geometry.ArcFitting.ParametricFit" takes: as a function of its
--- parameter.
-parametric :: Exact.Curve -> ParametricCurve
-parametric c =
-  ParametricCurve
-    { place = Exact.at c,
-      direction =
-        \side ->
-          Exact.tangentFrom
-            (case side of ParametricFit.Arriving -> Before; ParametricFit.Leaving -> After)
-            c,
-      begin = 0,
-      breaks = case drop 1 (Exact.breaks c) of
-        [] -> Exact.domain c :| []
-        u : us -> u :| us
-    }
 
 -- | The points at which the recalculations of a curve have made slight corners.
 breakPoints :: PartCurve -> [Point]

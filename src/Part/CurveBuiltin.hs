@@ -22,6 +22,7 @@ import Data.Primitive.PrimArray qualified as PrimArray
 import Data.Semigroup (sconcat)
 import Data.Vector qualified as Vector
 import Geometry.ArcFitting.Biarc qualified as Biarc
+import Geometry.ArcFitting.CurveFit qualified as CurveFit
 import Geometry.ArcFitting.ParametricFit qualified as ParametricFit
 import Geometry.Carrier (Sense (..))
 import Geometry.Curve qualified as Exact
@@ -76,7 +77,7 @@ newCurve region builtin arguments = case (builtin, arguments) of
   (Parabola, [t]) -> Just (curveThrough t Exact.parabola)
   (Biarcs, [Plain (CurveValue c), Choosing WithinTolerance (Quantity d)]) -> Just $ do
     toleranceOf region d
-    ofSegments region (sconcat (ParametricFit.approximate (Mm d) (Curve.parametric (exact c))))
+    ofSegments region (sconcat (ParametricFit.approximate (Mm d) (CurveFit.parametric (exact c))))
   (Biarcs, [t]) -> Just (biarcs region t Open)
   (ClosedBiarcs, [t]) -> Just (biarcs region t Closed)
   (Fit, [t, Choosing WithinTolerance (Quantity d)]) -> Just $ do

@@ -44,6 +44,9 @@ data DrawingMistake
   | -- | two entities along each other: the entities, the length that they have in common, its
     -- middle
     OverlappingEntities Region Region Mm Point
+  | -- | two entities of closed outlines that cross or touch: the entities, the point; both are one
+    -- entity if it crosses itself
+    CrossingEntities Region Region Point
   | -- | no circle for a table: the region of the file
     NoCircle Region
   | -- | gaps between ends that were closed: the region of the file, the places
@@ -110,6 +113,21 @@ toReport fault = case fault of
           ],
         hints = ["Remove one of the two from the drawing, or shorten it."]
       }
+  CrossingEntities a b p
+    | a == b ->
+      (at a "E0125" "this crosses or touches itself")
+        { message = ["It does at " <> place p <> "."],
+          hints = ["Mend the outline in the drawing."]
+        }
+    | otherwise ->
+      (at b "E0125" "this crosses or touches another entity")
+        { others = [Label a "the other one"],
+          message = ["They meet at " <> place p <> ", so inside and outside are not clear."],
+          hints =
+            [ "Mend the drawing, or put the outlines on layers of their own and combine them with \
+              \union or difference."
+            ]
+        }
   ClosedGaps region gaps ->
     (warning region "W0101" (gapsTitle (NonEmpty.length gaps) <> widest gaps))
       { message = map gapText (NonEmpty.take 8 gaps) <> andMore (NonEmpty.length gaps - 8),

@@ -40,6 +40,7 @@ import Drawing.Drawing qualified as Drawing
 import Drawing.Dxf qualified as Dxf
 import Drawing.Error qualified as FileError
 import Drawing.FileFormat (FileFormat (..), formatOf)
+import Drawing.Nesting (ClosedBoundary, Crossing (..))
 import Drawing.Nesting qualified as Nesting
 import Drawing.Outline (ClosedGap (..), DrawnPart (..), JoinFault (..), Joining (..), Outline (..))
 import Drawing.Outline qualified as Outline
@@ -214,7 +215,14 @@ contours text at file asked name (tolerance, chosen) = case asked of
   AllOutlines -> case outlines joining of
     [] -> result [NoOutline file] []
     first : more -> case [o | o <- first : more, ends o == Polyarc.Open] of
-      [] -> result [] (asRegion at name contourOf (first : more))
+      []
+        -- Entities along each other touch at their ends, too.
+        | not (null (faults joining)) -> result [] []
+        | otherwise -> case Nesting.crossings boundaries of
+          [] -> result [] (asRegion at name contourOf (zip (first : more) boundaries))
+          found -> result (map (crossingFault regionOf) found) []
+        where
+          boundaries = map Nesting.boundary (first : more)
       -- A fault at the ends leaves outlines open.
       open -> result (if null (faults joining) then map openFault open else []) []
   where
@@ -241,20 +249,20 @@ contours text at file asked name (tolerance, chosen) = case asked of
         (PathPart.start (part (NonEmpty.head (parts o))))
         (PathPart.end (part (NonEmpty.last (parts o))))
 
--- | The contours of some closed outlines, and the region that they bound: the value of the name. An
--- outline within an odd count of others is a hole.
+-- | The contours of some closed outlines with their boundaries, and the region that they bound: the
+-- value of the name. An outline within an odd count of others is a hole.
 asRegion ::
   Region ->
   Located Name ->
   (Located Name -> Outline -> Statement) ->
-  [Outline] ->
+  [(Outline, ClosedBoundary)] ->
   [Statement]
 asRegion at name contourOf closed =
-  zipWith contourOf names closed
+  zipWith contourOf names (map fst closed)
     <> [Located at (LetValue name (foldl nested (call "region" []) levels))]
   where
     names = [partName name k | k <- [1 .. length closed]]
-    depths = Nesting.depths closed
+    depths = Nesting.depths (map snd closed)
     levels = [(k, [n | (n, d) <- zip names depths, d == k]) | k <- [0 .. maximum depths]]
     nested around (k, ns) = case k :: Int of
       0 -> call "region" [listOf ns]
@@ -275,6 +283,10 @@ joinFault :: (Entity -> Region) -> JoinFault -> DrawingMistake
 joinFault regionOf fault = case fault of
   Branch p es -> BranchingOutline p (fmap regionOf es)
   Overlap a b long p -> OverlappingEntities (regionOf a) (regionOf b) long p
+
+-- | The mistake of a crossing of closed outlines.
+crossingFault :: (Entity -> Region) -> Crossing -> DrawingMistake
+crossingFault regionOf (Crossing a b p) = CrossingEntities (regionOf a) (regionOf b) p
 
 -- | The remarks of a joining.
 remarksOf :: (Entity -> Region) -> Region -> Joining -> [DrawingMistake]

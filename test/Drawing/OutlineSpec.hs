@@ -10,12 +10,10 @@ import Data.List (sort)
 import Data.List.NonEmpty (NonEmpty (..))
 import Data.List.NonEmpty qualified as NonEmpty
 import Drawing.Drawing (Entity (..), PathPart (..), Shape (..))
-import Drawing.Nesting qualified as Nesting
 import Drawing.Outline (ClosedGap (..), DrawnPart (..), JoinFault (..), Joining (..), Outline (..))
 import Drawing.Outline qualified as Outline
 import Drawing.OutlineTolerance qualified as Tolerance
 import Drawing.PathPart qualified as PathPart
-import Geometry.Carrier (Circle (Circle))
 import Geometry.Polyarc (Ends (..))
 import Geometry.Segment (Segment (Straight))
 import Geometry.Segment qualified as Segment
@@ -76,25 +74,6 @@ spec = do
                     let j = foundWith [PathPart.reversed chosen]
                      in (length (repeated j), length (faults j)) === (1, 0)
                 ]
-  it "the depth of an outline is the count of those around it (catches boxes for outlines)" $
-    property $
-      forAll (vectorOf 6 (elements [0, 1])) $ \places ->
-        let -- Circles about two centres, the larger ones around the smaller ones, and small circles
-            -- in corners of the boxes of the larger ones.
-            circles =
-              [ (place :: Int, Entity k "CIRCLE" "" [] [] (FullCircle circle))
-                | (k, place) <- zip [1 ..] places,
-                  let circle = Circle (centre place) (Mm (5 * fromIntegral k))
-              ]
-            inCorner =
-              [ Entity 7 "CIRCLE" "" [] [] (FullCircle (Circle (Vec.point (x + 23) 23) (Mm 1)))
-                | x <- [0, 100]
-              ]
-            centre place = Vec.point (fromIntegral place * 100) 0
-            outer k p = length [() | (q, _) <- drop k circles, q == p]
-            expected = [outer k p | (k, (p, _)) <- zip [1 ..] circles] <> [0, 0]
-            entities = map snd circles <> inCorner
-         in Nesting.depths (outlines (Outline.joined Tolerance.joining entities)) === expected
   where
     isBranch f = case f of Branch _ _ -> True; Overlap {} -> False
     isOverlap f = case f of Overlap {} -> True; Branch _ _ -> False

@@ -136,8 +136,9 @@ rapid m f
   | Machine.hasRapidMotion m = f {motion = Rapid, feedCode = Machine.FeedCode 0}
   | otherwise = f {feedCode = Machine.rapidCode m}
 
--- | The tapes without two or three frames that go down or up and lead back to where they begin, such
--- as a peck. Level ones end a helix or a ramp, and the passes of the pocket cut their material too.
+-- | The tapes without two or three frames that go down or up and lead back to where they begin,
+-- such as a peck. Level ones end a helix or a ramp, and the passes of the pocket cut their material
+-- too.
 thereAndBack :: [PlannedFrame] -> [[Frame]]
 thereAndBack ps =
   [ map frame (before <> after)

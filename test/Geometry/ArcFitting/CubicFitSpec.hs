@@ -10,6 +10,7 @@ import Data.Semigroup (sconcat)
 import Data.Vector qualified as Vector
 import Geometry.Apart (apart, away)
 import Geometry.ArcFitting.CubicFit qualified as CubicFit
+import Geometry.ArcFitting.CurveFit qualified as CurveFit
 import Geometry.ArcFitting.ParametricFit qualified as ParametricFit
 import Geometry.Curve (Curve)
 import Geometry.Curve qualified as Curve
@@ -17,7 +18,6 @@ import Geometry.MeasuredPolyarc qualified as MeasuredPolyarc
 import Geometry.Segment (Segment (..))
 import Geometry.Segment qualified as Segment
 import Geometry.Vec qualified as Vec
-import Part.Curve qualified as Part
 import Test.Hspec
 import Test.QuickCheck
 
@@ -226,4 +226,4 @@ fewLaw t@(FitCase _ tolerance c) =
   where
     ss = arcsOf tolerance c
     general =
-      NonEmpty.length (sconcat (ParametricFit.approximate (Mm tolerance) (Part.parametric c)))
+      NonEmpty.length (sconcat (ParametricFit.approximate (Mm tolerance) (CurveFit.parametric c)))

@@ -8,6 +8,7 @@ import Data.List.NonEmpty qualified as NonEmpty
 import Data.Semigroup (sconcat)
 import Data.Vector qualified as Vector
 import Geometry.ArcFitting.Biarc qualified as Biarc
+import Geometry.ArcFitting.CurveFit qualified as CurveFit
 import Geometry.ArcFitting.ParametricFit qualified as ParametricFit
 import Geometry.ArcFitting.PolyarcFit qualified as PolyarcFit
 import Geometry.Curve qualified as Curve
@@ -18,7 +19,6 @@ import Geometry.Segment (Segment (..))
 import Geometry.Segment qualified as Segment
 import Geometry.Vec (Point)
 import Geometry.Vec qualified as Vec
-import Part.Curve qualified as Part
 import Test.Hspec
 import Test.QuickCheck
 
@@ -85,7 +85,7 @@ fitCase = oneof [splined, bent, through, polygon]
               FitCase
                 "splined"
                 t
-                (sconcat (ParametricFit.approximate (Mm fine) (Part.parametric c)))
+                (sconcat (ParametricFit.approximate (Mm fine) (CurveFit.parametric c)))
           )
             <$> tolerance
     -- Lines and arcs in tangent contact.
@@ -279,5 +279,5 @@ fewLaw t@(FitCase _ tolerance segments) =
     found = length (arcsOf t)
     general = case Curve.fromSegments segments of
       Right c ->
-        NonEmpty.length (sconcat (ParametricFit.approximate (Mm tolerance) (Part.parametric c)))
+        NonEmpty.length (sconcat (ParametricFit.approximate (Mm tolerance) (CurveFit.parametric c)))
       Left _ -> found
