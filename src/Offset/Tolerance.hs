@@ -9,6 +9,8 @@ module Offset.Tolerance
     resolution,
     rounding,
     tangential,
+    smallestDisc,
+    finestShare,
   )
 where
 
@@ -61,3 +63,12 @@ rounding = 1e-14
 -- This moves offset points by at most the product of the sine and the offset's distance.
 tangential :: Double
 tangential = 1e-9
+
+-- | The radius in mm of the smallest disc that touches the boundary of an area at two points. Smaller
+-- ones lie in a corner.
+smallestDisc :: Mm
+smallestDisc = Mm 1e-9
+
+-- | The share of an element of a boundary below which the medial axis is not divided further.
+finestShare :: Double
+finestShare = 1e-12

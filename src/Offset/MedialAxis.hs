@@ -1,0 +1,323 @@
+-- | The medial axis of an area bounded by lines and arcs: the centres of the discs that lie in the
+-- area and touch its boundary at two points or more. Discs can be limited to a largest radius;
+-- those of this radius touch the boundary at one point, and their centres are an offset.
+--
+-- The method follows the boundary. A site is an element of it: a line, an arc, or a reflex corner.
+-- The largest disc that touches a site at a point is the smallest of those that touch the site
+-- there and one other site, and each of these has a closed form (Held, "On the Computational
+-- Geometry of Pocket Machining", chapter 4, has the bisectors). As the point moves along the site,
+-- the centre moves along the axis; it comes to a branching point where another site takes over. So
+-- every branch is found twice, once from each of its two sites, and the first of them gives it.
+module Offset.MedialAxis
+  ( Disc (..),
+    Stretch (..),
+    Branch,
+    branches,
+    firstDisc,
+    lastDisc,
+  )
+where
+
+import Base.Quantity (Mm (..), Rad (..))
+import Data.List (sort)
+import Data.List.NonEmpty (NonEmpty (..))
+import Data.List.NonEmpty qualified as NonEmpty
+import Data.Maybe (fromMaybe, mapMaybe)
+import Data.Vector (Vector)
+import Data.Vector qualified as Vector
+import Geometry.Distance qualified as Distance
+import Geometry.Index.BoundingBox (BoundingBox (..))
+import Geometry.Index.BoundingBox qualified as BoundingBox
+import Geometry.Index.BoxTree (BoxTree)
+import Geometry.Index.BoxTree qualified as BoxTree
+import Geometry.Polyarc (Polyarc (..))
+import Geometry.Segment (Segment (..))
+import Geometry.Segment qualified as Segment
+import Geometry.Vec (Point, Vec)
+import Geometry.Vec qualified as Vec
+import Offset.Tolerance qualified as Tolerance
+
+-- | A disc in the area: its centre and its radius in mm.
+data Disc = Disc {discCentre :: Point, discRadius :: Double}
+  deriving stock (Eq, Show)
+
+-- | A stretch of the path of the centre of a disc.
+data Stretch
+  = -- | a straight line between the centres of two discs; the radius changes evenly
+    Sloping Disc Disc
+  | -- | an arc on which the radius stays the same
+    Level Segment Double
+  deriving stock (Eq, Show)
+
+-- | Stretches of which each begins where the one before it ends. A branch that is only a point has
+-- one stretch of length 0.
+type Branch = NonEmpty Stretch
+
+-- | The disc at the beginning and at the end of a branch.
+firstDisc, lastDisc :: Branch -> Disc
+firstDisc b = case NonEmpty.head b of
+  Sloping d _ -> d
+  Level s r -> Disc (Segment.start s) r
+lastDisc b = case NonEmpty.last b of
+  Sloping _ d -> d
+  Level s r -> Disc (Segment.end s) r
+
+-- Sites -------------------------------------------------------------------------------------------
+
+-- | An element of the boundary, with the area on its left.
+data Site
+  = Side Segment
+  | -- | a corner, the unit normal into the area at the end of the side before it, and the angle to
+    -- the normal of the next side. It is negative at a reflex corner
+    Corner Point Vec Double
+
+-- | The sites of an area: the sides have the numbers from 0, and the corners those after them. The
+-- corner at the start of the side k has the number k plus the count of the sides.
+data Sites = Sites {sites :: Vector Site, tree :: BoxTree (Int, Site), before :: Vector Int}
+
+sitesOf :: NonEmpty Polyarc -> Sites
+sitesOf loops =
+  Sites
+    { sites = list,
+      tree = BoxTree.index (boxOf . snd) (zip [0 ..] (Vector.toList list)),
+      before = Vector.fromList (concat (zipWith numbersBefore firsts counts))
+    }
+  where
+    list = Vector.fromList (map Side (concatMap sidesOf loops) <> concatMap cornersOf loops)
+    sidesOf = NonEmpty.toList . segments
+    counts = map (NonEmpty.length . segments) (NonEmpty.toList loops)
+    firsts = scanl (+) 0 counts
+    numbersBefore first count = (first + count - 1) : [first .. first + count - 2]
+    cornersOf loop =
+      let ss = sidesOf loop in zipWith corner (drop (length ss - 1) (cycle ss)) ss
+    corner a b =
+      let n = Vec.left (Segment.endDirection a)
+          Rad turn = Vec.signedAngle (Segment.endDirection a) (Segment.startDirection b)
+       in Corner (Segment.start b) n turn
+
+boxOf :: Site -> BoundingBox
+boxOf site = case site of
+  Side s -> BoundingBox.ofSegment s
+  Corner p _ _ -> BoundingBox.ofPoints p []
+
+-- | The point of a site at a share of it, and the unit normal into the area there.
+contact :: Site -> Double -> (Point, Vec)
+contact site u = case site of
+  Side s -> (Segment.at u s, Vec.left (Segment.directionAt u s))
+  Corner p n turn -> (p, Vec.rotate (Rad (u * turn)) n)
+
+-- | The radius of the disc that touches one site at the point @p@, with the unit normal @n@ into the
+-- area there, and that touches another site; Nothing if no such disc touches it from the area.
+--
+-- A disc of radius r has its centre at p + r·n. For each kind of site the condition that it touches
+-- is linear in r.
+radiusBetween :: Point -> Vec -> Site -> Maybe Double
+radiusBetween p n site = case site of
+  Corner q _ _ -> let d = Vec.to p q in quotient (Vec.dot d d) (2 * Vec.dot n d) (const True)
+  Side s@(Straight a b) ->
+    let m = Vec.left (Vec.unit (Vec.to a b))
+     in quotient (Vec.dot m (Vec.to a p)) (1 - Vec.dot m n) (Segment.hasFootOf s)
+  Side s@Arc {start, centre = o, sweep = Rad w} ->
+    let Mm big = Segment.radius o start
+        d = Vec.to o p
+        excess = big * big - Vec.dot d d
+     in if w > 0
+          then quotient excess (2 * (big + Vec.dot n d)) (Segment.hasFootOf s)
+          else quotient (-excess) (2 * (big - Vec.dot n d)) (Segment.hasFootOf s)
+  where
+    quotient over under touches
+      | under <= Tolerance.tangential || r <= smallest = Nothing
+      | touches (Vec.shift (Vec.scale r n) p) = Just r
+      | otherwise = Nothing
+      where
+        r = over / under
+    Mm smallest = Tolerance.smallestDisc
+
+-- Following a site --------------------------------------------------------------------------------
+
+-- | The bound on the largest disc at a point of a site.
+data Bound
+  = -- | another site, by its number
+    Other Int
+  | -- | the radius of the site itself, a concave arc
+    Itself
+  | -- | the largest radius of the discs
+    Limit
+  deriving stock (Eq)
+
+-- | A share of a site, with the radius and the bound of the largest disc there.
+data Sample = Sample {share :: Double, radius :: Double, bound :: Bound}
+
+-- | A site that is followed: the sites of the area, the largest radius, its own number, and itself.
+data Followed = Followed {around :: Sites, most :: Double, own :: Int, site :: Site}
+
+-- | The largest disc at a share of a site.
+sample :: Followed -> Double -> Sample
+sample f u
+  | Just neighbour <- atConvexCorner f u = Sample u 0 (Other neighbour)
+  | otherwise = foldl least (Sample u start startBound) near
+  where
+    (p, n) = contact (site f) u
+    (start, startBound) = case site f of
+      Side Arc {start = a, centre = o, sweep = Rad w}
+        | w > 0, let Mm big = Segment.radius o a, big <= most f -> (big, Itself)
+      _ -> (most f, Limit)
+    c = Vec.shift (Vec.scale start n) p
+    box =
+      BoundingBox (Vec.x c - start) (Vec.y c - start) (Vec.x c + start) (Vec.y c + start)
+    near = BoxTree.within box (tree (around f))
+    least s (k, other)
+      | k /= own f, Just r <- radiusBetween p n other, r < radius s - smallest = Sample u r (Other k)
+      | otherwise = s
+    -- Equal radii but for rounding are those of the site that comes first.
+    Mm smallest = Tolerance.smallestDisc
+
+-- | The number of the side beyond the convex corner at a share of a side, if it is at one.
+atConvexCorner :: Followed -> Double -> Maybe Int
+atConvexCorner Followed {around = Sites {sites, before}, own} u
+  | own >= count = Nothing
+  | u == 0 && isConvex own = Just (before Vector.! own)
+  | u == 1 && isConvex next = Just next
+  | otherwise = Nothing
+  where
+    count = Vector.length before
+    next = fromMaybe own (Vector.elemIndex own before)
+    isConvex k = case sites Vector.! (k + count) of
+      Corner _ _ turn -> turn > Tolerance.tangential
+      Side _ -> False
+
+-- | Pieces of a site, each from a share to another one, with one bound.
+pieces :: Followed -> [(Double, Double, Bound)]
+pieces f = joined (concat (zipWith between samples (drop 1 samples)))
+  where
+    samples = map (sample f) (shares f)
+    between a b
+      | bound a == bound b = [(share a, share b, bound a)]
+      | share b - share a <= Tolerance.finestShare = [(share a, share b, bound a)]
+      | otherwise = between a m <> between m b
+      where
+        m = sample f (crossing f a b)
+    joined list = case list of
+      (a, _, x) : (_, b, y) : more | x == y -> joined ((a, b, x) : more)
+      one : more -> one : joined more
+      [] -> []
+
+-- | The share at which the bounds of two samples give equal radii, or the middle if this share is
+-- not between them. Steps of the Illinois method, a form of regula falsi.
+crossing :: Followed -> Sample -> Sample -> Double
+crossing f a b = go (12 :: Int) (share a) (difference (share a)) (share b) (difference (share b))
+  where
+    difference u = radiusOf f u (bound a) - radiusOf f u (bound b)
+    middle = (share a + share b) / 2
+    Mm smallest = Tolerance.smallestDisc
+    go steps u du v dv
+      | not (du < 0 && dv > 0) || isInfinite du || isInfinite dv = middle
+      | steps == 0 || abs dw <= smallest = inside w
+      | dw < 0 = go (steps - 1) w dw v (dv / 2)
+      | otherwise = go (steps - 1) u (du / 2) w dw
+      where
+        w = u - du * (v - u) / (dv - du)
+        dw = difference w
+    inside w = if w > share a && w < share b then w else middle
+
+-- | The radius that a bound gives at a share of a site; very large if it gives none there.
+radiusOf :: Followed -> Double -> Bound -> Double
+radiusOf f u b = case b of
+  Limit -> most f
+  Itself -> case site f of
+    Side Arc {start, centre = o} -> let Mm big = Segment.radius o start in big
+    _ -> most f
+  Other k -> case radiusBetween p n (sites (around f) Vector.! k) of
+    Just r -> r
+    Nothing -> 1 / 0
+  where
+    (p, n) = contact (site f) u
+
+-- | The shares of a site at which it is sampled first, in ascending order: some at even distances,
+-- and those at which it is nearest to another site, if one of them is convex.
+shares :: Followed -> [Double]
+shares f = dropEqual (sort (even' <> filter isInside (mapMaybe near found)))
+  where
+    even' = [fromIntegral k / fromIntegral evenCount | k <- [0 .. evenCount]]
+    evenCount = 4 :: Int
+    isInside u = u > Tolerance.finestShare && u < 1 - Tolerance.finestShare
+    Mm reach' = Mm (2 * most f)
+    found = BoxTree.within (BoundingBox.inflate (Mm reach') (boxOf (site f))) (tree (around f))
+    near (k, other)
+      | k == own f = Nothing
+      | otherwise = case (middleOf (site f), other) of
+        (_, Corner q _ turn) | turn < 0 -> Just (towards q)
+        (_, Side Arc {centre = o, sweep = Rad w}) | w < 0 -> Just (towards o)
+        (Just o, Side s) -> Just (towards (snd (Distance.nearest o s)))
+        _ -> Nothing
+    middleOf s = case s of
+      Corner q _ _ -> Just q
+      Side Arc {centre = o, sweep = Rad w} | w < 0 -> Just o
+      Side _ -> Nothing
+    towards q = case site f of
+      Side s -> Segment.fraction s q
+      Corner p n turn -> let Rad a = Vec.signedAngle n (Vec.to p q) in a / turn
+    dropEqual us = case us of
+      a : b : more
+        | b - a <= Tolerance.finestShare -> dropEqual (a : more)
+        | otherwise -> a : dropEqual (b : more)
+      _ -> us
+
+-- Branches ----------------------------------------------------------------------------------------
+
+-- | The branches of the medial axis of an area. The first argument is the largest deviation in mm of
+-- a straight stretch from the axis, and of the radius along it; the second one the largest radius
+-- of the discs in mm. The area lies on the left of closed loops that neither cross nor touch.
+branches :: Mm -> Mm -> NonEmpty Polyarc -> [Branch]
+branches (Mm tolerance) (Mm most) loops =
+  concat
+    [ concatMap (branchOf tolerance f) (pieces f)
+      | (k, s) <- zip [0 ..] (Vector.toList (sites around)),
+        isFollowed s,
+        let f = Followed {around, most, own = k, site = s}
+    ]
+  where
+    around = sitesOf loops
+    isFollowed s = case s of
+      Side _ -> True
+      Corner _ _ turn -> turn < -Tolerance.tangential
+
+-- | The branch along a piece of a site; none if another site gives it.
+branchOf :: Double -> Followed -> (Double, Double, Bound) -> [Branch]
+branchOf tolerance f (a, b, bound') = case bound' of
+  Other k | k < own f -> []
+  Itself -> [Sloping (discAt a) (discAt a) :| []]
+  Limit | Just s <- levelArc f a b -> [Level s (most f) :| []]
+  _ -> [straight a (discAt a) b (discAt b)]
+  where
+    discAt u =
+      let (p, n) = contact (site f) u
+          r = min (most f) (radiusOf f u bound' `orAt` radius (sample f u))
+       in Disc (Vec.shift (Vec.scale r n) p) r
+    orAt r other = if isInfinite r then other else r
+    -- Stretches between two shares, halved until they are near enough to the axis.
+    straight u d v e
+      | v - u <= Tolerance.finestShare || all (isNear d e) [0.25, 0.5, 0.75] = Sloping d e :| []
+      | otherwise = let m = (u + v) / 2; h = discAt m in straight u d m h <> straight m h v e
+      where
+        isNear x y t = deviation x y (discAt (u + t * (v - u))) <= tolerance
+    deviation x y (Disc c r) =
+      let axis = Vec.to (discCentre x) (discCentre y)
+          l = Vec.dot axis axis
+          t = if l > 0 then Vec.dot axis (Vec.to (discCentre x) c) / l else 0
+          Mm off = Vec.distance (Vec.interpolate t (discCentre x) (discCentre y)) c
+       in max off (abs (discRadius x + t * (discRadius y - discRadius x) - r))
+
+-- | The arc on which the centre of a disc of the largest radius moves along a piece of an arc or of
+-- a corner; Nothing for a line.
+levelArc :: Followed -> Double -> Double -> Maybe Segment
+levelArc f a b = case site f of
+  Side (Straight _ _) -> Nothing
+  Side Arc {centre = o, sweep = Rad w} -> Just (arcAbout o (w * (b - a)))
+  Corner p _ turn -> Just (arcAbout p (turn * (b - a)))
+  where
+    arcAbout o w =
+      let (p, n) = contact (site f) a
+          begin = Vec.shift (Vec.scale (most f) n) p
+          stop = let (q, m) = contact (site f) b in Vec.shift (Vec.scale (most f) m) q
+       in if begin == stop && abs w <= pi then Straight begin stop else Arc begin stop o (Rad w)
