@@ -280,9 +280,16 @@ partOf at operation =
       Part.Pocket (Located _ p) -> mill (Part.wall p)
       Part.Drill (Located _ d) ->
         Just (tool Part.DrillingCutter (Part.drillRadius d))
+      Part.Carve (Located _ c) -> Just (vBit c)
       Part.Travel _ -> Nothing
       Part.Command _ -> Nothing
     tool kind r = Part.Cutter kind r Nothing Nothing r Part.plainBody
+    vBit c =
+      (tool Part.VBitCutter (Part.carvingRadius c))
+        { Part.tipRadius = Part.carvingTip c,
+          Part.body =
+            Part.plainBody {Part.pointAngle = Just (Rad (let Rad a = Part.halfAngle c in 2 * a))}
+        }
     mill m = Just (tool Part.MillingCutter (Part.radius m))
 
 -- | A toolpath of one rapid move, from (0, 0) to a point by its coordinates in mm.

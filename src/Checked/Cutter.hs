@@ -27,6 +27,9 @@ cutter env (Located at c) = fmap (Located at .) $ case c of
   Surface.ConeCutter d a h ->
     (\d' a' h' sol -> Checked.ConeCutter (d' sol) (a' sol) (h' sol))
       <$> len d <*> expect env Type.angle a <*> len h
+  Surface.VBitCutter a t d ->
+    (\a' t' d' sol -> Checked.VBitCutter (a' sol) (t' sol) (d' sol))
+      <$> expect env Type.angle a <*> len t <*> len d
   Surface.BladeCutter d g ->
     (\d' g' sol -> Checked.BladeCutter (d' sol) (g' sol)) <$> len d <*> len g
   where

@@ -45,7 +45,7 @@ import Checked.Syntax (Program (..))
 import Checked.Syntax qualified as Checked
 import Checked.Type (Type)
 import Checked.Type qualified as Type
-import Control.Applicative ((<|>))
+import Control.Applicative (liftA2, (<|>))
 import Control.Monad (unless, when)
 import Data.List.NonEmpty (NonEmpty (..))
 import Data.List.NonEmpty qualified as NonEmpty
@@ -178,12 +178,8 @@ statement env (Located at s) = case s of
   Surface.WorkOffset e -> one (fmap Checked.WorkOffset <$> expect env Type.number e)
   Surface.ProgramNumber e -> one (fmap Checked.ProgramNumber <$> expect env Type.number e)
   Surface.SafeHeight e -> one (fmap Checked.SafeHeight <$> expect env Type.len e)
-  Surface.Stock e zs ->
-    one $
-      (\e' zs' sol -> Checked.Stock (e' sol) (zs' sol)) <$> outlined env e <*> heights env zs
-  Surface.Avoid e zs ->
-    one $
-      (\e' zs' sol -> Checked.Avoid (e' sol) (zs' sol)) <$> outlined env e <*> heights env zs
+  Surface.Stock e zs -> one (solid env Checked.Stock e zs)
+  Surface.Avoid e zs -> one (solid env Checked.Avoid e zs)
   Surface.Assert e within -> one (fmap Checked.Assert <$> assertion env e within)
   Surface.Mill e side options ->
     one (machining env Checked.Mill "mill" (outlined env e) side options)
@@ -195,9 +191,9 @@ statement env (Located at s) = case s of
   Surface.Face e stepover options ->
     one (clearing env Checked.Face "face" (outlined env e) stepover options)
   Surface.Engrave text options ->
-    one $
-      (\text' o sol -> Checked.Engrave (text' sol) (o sol))
-        <$> Lettering.check env text <*> Settings.check env "engrave" options
+    one (liftA2 Checked.Engrave <$> Lettering.check env text <*> settings "engrave" options)
+  Surface.Vcarve e options ->
+    one (liftA2 Checked.Vcarve <$> outlined env e <*> settings "vcarve" options)
   Surface.Drill points depth options ->
     one $ do
       (columns, points') <- pointOrPoints env points
@@ -230,6 +226,7 @@ statement env (Located at s) = case s of
     done = fmap (fmap (Located at .))
     one = done . Inference.separately
     located s' = const (Located at s')
+    settings = Settings.check env
 
 -- | Checks the statements of a block. The names that they define are known only in this block.
 block :: TypingEnvironment -> [Statement] -> Infer [Deferred Checked.Statement]
@@ -516,14 +513,17 @@ holeSize env work columns (size, e) =
     sizeType = if size == Surface.HoleAngle then Type.angle else Type.len
     visible = if HoleForm.isByRow work size then columns else []
 
--- | Checks the heights of the bottom and of the top of a body.
-heights ::
+-- | Checks the region of a body and the heights of its bottom and of its top.
+solid ::
   TypingEnvironment ->
+  (Checked.Expr -> Maybe (Checked.Expr, Checked.Expr) -> a) ->
+  Surface.Expr ->
   Maybe (Surface.Expr, Surface.Expr) ->
-  Infer (Deferred (Maybe (Checked.Expr, Checked.Expr)))
-heights env zs =
-  (\zs' sol -> (\(a, b) -> (a sol, b sol)) <$> zs')
-    <$> traverse (\(a, b) -> (,) <$> expect env Type.len a <*> expect env Type.len b) zs
+  Infer (Deferred a)
+solid env make e zs =
+  (\e' zs' sol -> make (e' sol) ((\(a, b) -> (a sol, b sol)) <$> zs'))
+    <$> outlined env e
+      <*> traverse (\(a, b) -> (,) <$> expect env Type.len a <*> expect env Type.len b) zs
 
 tolerance :: TypingEnvironment -> Surface.Accuracy -> Infer (Deferred Checked.Accuracy)
 tolerance env accuracy = case accuracy of

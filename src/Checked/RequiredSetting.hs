@@ -105,6 +105,7 @@ machiningKeyword s = case s of
   Surface.RestOf {} -> "rest"
   Surface.Face {} -> "face"
   Surface.Engrave {} -> "engrave"
+  Surface.Vcarve {} -> "vcarve"
   Surface.Turn {} -> "turn"
   Surface.Drill {} -> "drill"
   Surface.Hole work _ _ _ _ -> HoleForm.word work
@@ -155,6 +156,7 @@ requirement s = case s of
   Surface.RestOf {} -> none {needed = ClearanceSetting : milling}
   Surface.Face {} -> none {needed = ClearanceSetting : milling}
   Surface.Engrave {} -> none {keywordLength = 7, needed = ClearanceSetting : milling}
+  Surface.Vcarve {} -> none {keywordLength = 6, needed = ClearanceSetting : milling}
   Surface.Turn {} -> none {needed = milling}
   Surface.Drill {} ->
     none {keywordLength = 5, needed = [ToolSetting, FeedSetting, FromSetting, ClearanceSetting]}

@@ -9,7 +9,7 @@ module Checked.Settings
   )
 where
 
-import Base.Region (Located (..))
+import Base.Region (Located (..), Region (..))
 import Checked.Deferred (Deferred)
 import Checked.Error (Error (..))
 import Checked.ErrorFix (unwritten)
@@ -63,6 +63,12 @@ setting env statement (Located at s) = do
     Surface.Depth d most -> do
       d' <- len d
       most' <- traverse len most
+      sequence_
+        [ Inference.mistake (ForeignSetting stepdown "step" statement ["depth"])
+          | statement == "vcarve",
+            Just m <- [most],
+            let stepdown = Region (end (region d)) (end (region m))
+        ]
       pure (\sol o -> o {depth = Just (d' sol, ($ sol) <$> most')})
     Surface.LeadBy Surface.LeadIn form e ->
       (\e' sol o -> o {leadIn = Just (form, e' sol)}) <$> len e

@@ -164,6 +164,8 @@ data Statement_
     Face Expr Expr Settings
   | -- | the text, and the settings
     Engrave Engraving Settings
+  | -- | the region to carve, and the settings
+    Vcarve Expr Settings
   | Turn Expr (Located Side) Settings
   | -- | the point or the list of points, the depth in mm, and the settings
     Drill Expr Expr Settings
@@ -247,6 +249,8 @@ data Cutter_
   | -- | a conical cutter: the diameter of its tip, the bevel of its flank, and the height above the
     -- tip at which the flank touches the contour
     ConeCutter Expr Expr Expr
+  | -- | a V-bit: the angle from flank to flank in radians, the diameters of its tip and of its top
+    VBitCutter Expr Expr Expr
   | -- | a swivelling blade: its diameter, and the diameter of the wheel that swivels it
     BladeCutter Expr Expr
   deriving stock (Eq, Show)

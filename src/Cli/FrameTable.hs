@@ -254,6 +254,7 @@ roleWord r = case r of
   Retracting _ -> "retract"
   Linking -> "travel"
   Drilling _ -> "drill"
+  Carving _ -> "carve"
   Commanding -> "command"
 
 speedWord :: Frame -> Text

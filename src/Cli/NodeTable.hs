@@ -24,6 +24,7 @@ import Cli.TabTable qualified as TabTable
 import Cli.Table (Align (..))
 import Cli.Table qualified as Table
 import Compile (Analysis (..), Punched (..))
+import Data.Containers.ListUtils (nubOrd)
 import Data.IntMap.Strict qualified as IntMap
 import Data.List.NonEmpty (NonEmpty)
 import Data.List.NonEmpty qualified as NonEmpty
@@ -39,7 +40,7 @@ import Geometry.Segment qualified as Segment
 import Geometry.Vec (Point)
 import Geometry.Vec qualified as Vec
 import Machine.Machine (Machine)
-import Part.Part (Drilling, Milling, Part, Pocketing)
+import Part.Part (Carving, Drilling, Milling, Part, Pocketing)
 import Part.Part qualified as Part
 import Pulse.Controller qualified as Controller
 import Pulse.ControllerRun (StopReason (..))
@@ -62,6 +63,7 @@ nodes source punched Analysis {part, path} =
         <> CurveTable.fittings part
         <> concatMap contourTables (cutsOf path)
         <> [pocketText unit machine job pass cleared | (job, pass, cleared) <- clearingsOf path]
+        <> [carvingText unit machine c (NonEmpty.toList ms) | Carved c ms <- Toolpath.blocks path]
         <> holeTable unit (drillingsOf path)
         <> holeOrderTable unit (drillingsOf path)
         <> TabTable.tables path
@@ -179,6 +181,20 @@ pocketText unit machine pocket pass cleared =
       Part.WholePocket -> "Pocket "
       Part.RestOfPocket _ -> "Rest of pocket "
       Part.Surface _ -> "Surface "
+
+-- | The count of moves, the length and the time of a V-carving.
+carvingText :: LengthUnit -> Maybe Machine -> Located Carving -> [Move] -> Text
+carvingText unit machine (Located _ c) ms =
+  "Carving of "
+    <> Text.intercalate ", " (nubOrd (map nameOfArea (NonEmpty.toList (Part.carvedAreas c))))
+    <> ", at most "
+    <> fixed3 unit (Part.carvingDepth c)
+    <> " deep: "
+    <> Decimal.whole (length ms)
+    <> " moves\n"
+    <> lengthAndTime unit machine ms
+  where
+    nameOfArea (outer, _) = let Name n = value (Part.contourName outer) in n
 
 nameOf :: Located Milling -> Text
 nameOf job = let Name n = value (Part.contourName (Part.contour (value job))) in n

@@ -10,7 +10,7 @@ module Draw.FromPart
 where
 
 import Base.Decimal qualified as Decimal
-import Base.Quantity (LengthUnit, Mm (..), Rad (..), total)
+import Base.Quantity (LengthUnit, Mm (..), Rad (..), times, total)
 import Base.Region (Located (..))
 import Data.Containers.ListUtils (nubOrd, nubOrdOn)
 import Data.Function (on)
@@ -49,7 +49,8 @@ import Toolpath.RestMaterial (Remaining (Remaining, offsetDistance, positions))
 import Toolpath.RestMaterial qualified as RestMaterial
 import Toolpath.Toolpath
   ( Block
-      ( Clearing,
+      ( Carved,
+        Clearing,
         Commanding,
         Cutting,
         Holing,
@@ -166,7 +167,8 @@ extent part path =
 drawnContours :: Part -> [Part.Contour]
 drawnContours part = distinct (filter isShown (Part.contours part) <> milled)
   where
-    milled = map contour (concatMap millingOf (Part.operations part))
+    milled =
+      concat [map contour (millingOf o) <> carvedContours o | o <- Part.operations part]
     images =
       Map.fromListWith (<>) [(definedAt c, [(c, lengthOf c)]) | c <- distinct milled]
     isShown c =
@@ -202,8 +204,16 @@ millingOf operation = case operation of
           | otherwise = (Part.Inside, Part.Outside)
      in along inside (contour wall) : map (along beside) (Part.islands p)
   Drill _ -> []
+  Carve _ -> []
   Travel _ -> []
   Command _ -> []
+
+-- | Contours between which an operation carves.
+carvedContours :: Operation -> [Part.Contour]
+carvedContours operation = case operation of
+  Carve (Located _ c) ->
+    concat [outer : inner | (outer, inner) <- NonEmpty.toList (Part.carvedAreas c)]
+  _ -> []
 
 -- | Rest material of all statements. If the boundary of some rest material was not found, a circle
 -- is drawn instead. Its centre is the point at which the cutter's centre has to stop before this
@@ -247,6 +257,7 @@ holesOf :: Operation -> [Circle]
 holesOf operation = case operation of
   Mill _ -> []
   Pocket _ -> []
+  Carve _ -> []
   Drill (Located _ d) ->
     [Circle p r | Part.Hole (Located _ p) _ r <- NonEmpty.toList (Part.holes d)]
   Travel _ -> []
@@ -260,6 +271,7 @@ movesBetween block = case block of
   Clearing {approach, cleared, retract} ->
     approach <> filter (not . isCut) (NonEmpty.toList cleared) <> retract
   Holing _ moves -> moves
+  Carved _ moves -> filter (not . isCarving) (NonEmpty.toList moves)
   Commanding _ -> []
 
 -- | Moves at feed that are no cuts, but whose lower end is not above the highest pass.
@@ -282,6 +294,7 @@ leadsOf path =
       Clearing {pocket = Located _ p, pass} -> found (Part.wall p) pass block
       Travelling {} -> Nothing
       Holing _ _ -> Nothing
+      Carved _ _ -> Nothing
       Commanding _ -> Nothing
     found milling pass block =
       Just (radius milling, Toolpath.atHeight pass, movesBetween block)
@@ -328,6 +341,7 @@ cutterBox block = case block of
     [ BoundingBox.inflate r (BoundingBox.ofPoints p [])
       | Part.Hole (Located _ p) _ r <- NonEmpty.toList (Part.holes d)
     ]
+  Carved _ _ -> []
   Commanding _ -> []
   Cutting {job = Located _ milling, cut} -> sweptBy milling (NonEmpty.toList cut)
   Clearing {pocket = Located _ p, cleared} -> sweptBy (Part.wall p) (NonEmpty.toList cleared)
@@ -377,6 +391,14 @@ cutsOf isLast (tool, block) = case block of
   Travelling {} -> []
   Holing _ _ -> []
   Commanding _ -> []
+  Carved (Located _ c) moves ->
+    [ (cutAlong tool (Part.carvingTip c) (times (-1) (Part.carvingDepth c)) ms)
+        { isOnContour = True,
+          showsCutter = False
+        }
+      | ms@(m :| _) <- NonEmpty.groupBy ((==) `on` isCarving) moves,
+        isCarving m
+    ]
   Cutting {job = Located _ milling, pass, cut} ->
     [ (along milling pass cut)
         { away = awayFrom milling,
@@ -391,26 +413,29 @@ cutsOf isLast (tool, block) = case block of
       (True : repeat False)
       [ms | ms@(m :| _) <- NonEmpty.groupBy (\a b -> isCut a == isCut b) cleared, isCut m]
   where
-    along milling pass ms =
-      Cut
-        { sections =
-            fmap
-              (fmap Toolpath.segment)
-              (NonEmpty.groupBy1 (\_ m -> Toolpath.continues m) ms),
-          feedRuns =
-            [ (f, map Toolpath.segment (NonEmpty.toList run))
-              | run <- NonEmpty.groupBy ((==) `on` feedOf) (NonEmpty.toList ms),
-                Just f <- [feedOf (NonEmpty.head run)]
-            ],
-          height = Toolpath.atHeight pass,
-          tool,
-          cutterRadius = let Mm r = radius milling in r,
-          holderRadius = 0,
-          away = 1,
-          isOnContour = False,
-          numbered = False,
-          showsCutter = True
-        }
+    along milling pass = cutAlong tool (radius milling) (Toolpath.atHeight pass)
+
+-- | Cut along moves with a tool, by the position of the tool and its radius. The first height is
+-- that of the pass.
+cutAlong :: Maybe Int -> Mm -> Mm -> NonEmpty Move -> Cut
+cutAlong tool (Mm cutterRadius) height ms =
+  Cut
+    { sections =
+        fmap (fmap Toolpath.segment) (NonEmpty.groupBy1 (\_ m -> Toolpath.continues m) ms),
+      feedRuns =
+        [ (f, map Toolpath.segment (NonEmpty.toList run))
+          | run <- NonEmpty.groupBy ((==) `on` feedOf) (NonEmpty.toList ms),
+            Just f <- [feedOf (NonEmpty.head run)]
+        ],
+      height,
+      tool,
+      cutterRadius,
+      holderRadius = 0,
+      away = 1,
+      isOnContour = False,
+      numbered = False,
+      showsCutter = True
+    }
 
 -- | Feed of a move as the program gives it; Nothing for a rapid move.
 feedOf :: Move -> Maybe CutFeed
@@ -429,6 +454,10 @@ isLastPass path = isFinal
 -- | True if a move in a pocket cuts: it is at feed and does not change the height.
 isCut :: Move -> Bool
 isCut m = Toolpath.pace m /= Rapid && uncurry (==) (Toolpath.heights m)
+
+-- | True if a move of a V-carving cuts: it is at feed and does not go straight down or up.
+isCarving :: Move -> Bool
+isCarving m = Toolpath.pace m /= Rapid && Segment.length (Toolpath.segment m) > Mm 0
 
 -- | Drops blocks that would be drawn over others. If passes differ only in their depth, the last of
 -- them remains, which is the deepest.

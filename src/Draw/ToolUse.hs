@@ -100,6 +100,7 @@ isWork block = case block of
   Cutting {} -> True
   Clearing {} -> True
   Holing {} -> True
+  Carved {} -> True
   Travelling {} -> False
   Commanding _ -> False
 
@@ -109,6 +110,7 @@ feedsOf block = case block of
   Cutting {cut} -> paced (NonEmpty.toList cut)
   Clearing {cleared} -> paced (filter (uncurry (==) . Toolpath.heights) (NonEmpty.toList cleared))
   Holing (Located _ d) _ -> [cutFeed (value (Part.drillFeed d))]
+  Carved (Located _ c) _ -> [cutFeed (value (Part.carvingFeed c))]
   Travelling {} -> []
   Commanding _ -> []
   where
@@ -153,6 +155,7 @@ wordOf kind = case kind of
   Part.MillingCutter -> "cutter Ø"
   Part.DrillingCutter -> "drill Ø"
   Part.ConeCutter -> "cone Ø"
+  Part.VBitCutter -> "V-bit Ø"
   Part.DovetailCutter -> "dovetail Ø"
   Part.BladeCutter _ -> "blade Ø"
   Part.TappingCutter -> "tap Ø"

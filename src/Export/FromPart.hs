@@ -112,6 +112,7 @@ motionsOf block = case block of
          ]
       <> links retract
   Holing _ ms -> cuts ms
+  Carved _ ms -> cuts (NonEmpty.toList ms)
   Commanding _ -> []
   where
     links = map (between LinkLayer) . moving
@@ -151,4 +152,5 @@ nodesOf isLast block = case block of
   Clearing {} -> []
   Travelling {} -> []
   Holing _ _ -> []
+  Carved _ _ -> []
   Commanding _ -> []

@@ -133,8 +133,15 @@ data PlannedFrame = PlannedFrame
   deriving stock (Eq, Show)
 
 -- | Purpose of a frame. The first three purposes have the number of the pass along a contour or in
--- a pocket, from 0. Drilling has the number of its block in the toolpath, from 0.
-data Role = Approaching Int | Cutting Int | Retracting Int | Linking | Drilling Int | Commanding
+-- a pocket, from 0. Drilling and carving have the number of their block in the toolpath, from 0.
+data Role
+  = Approaching Int
+  | Cutting Int
+  | Retracting Int
+  | Linking
+  | Drilling Int
+  | Carving Int
+  | Commanding
   deriving stock (Eq, Show)
 
 -- | Number of the pass to which a frame belongs, from 0; Nothing for frames outside of passes.
@@ -145,6 +152,7 @@ passNumber role = case role of
   Retracting n -> Just n
   Linking -> Nothing
   Drilling _ -> Nothing
+  Carving _ -> Nothing
   Commanding -> Nothing
 
 -- | All frames of a tape, and the position of the cutter before the first one, in pulses from the

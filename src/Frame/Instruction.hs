@@ -31,7 +31,7 @@ import Frame.Rounding qualified as Rounding
 import Geometry.Segment qualified as Segment
 import Machine.Machine (Machine)
 import Machine.Machine qualified as Machine
-import Part.Part (Drilling, Milling)
+import Part.Part (Carving, Drilling, Milling)
 import Part.Part qualified as Part
 import Toolpath.DrillMove qualified as DrillMove
 import Toolpath.Toolpath (Block, Move (..), Sent, Toolpath, heights, pace)
@@ -131,6 +131,7 @@ ofBlock machine blockNumber n walls b = case b of
   Toolpath.Travelling radius _ ms -> straightRuns Linking radius ms
   Toolpath.Holing d ms ->
     concat (zipWith (holing machine blockNumber d) (drop 1 (map Just ms) <> [Nothing]) ms)
+  Toolpath.Carved (Located _ c) ms -> map (carved blockNumber c) (NonEmpty.toList ms)
   Toolpath.Commanding c -> [Words (region c) (Command.translated machine c)]
   Toolpath.Cutting
     { Toolpath.job = Located region' job,
@@ -180,6 +181,13 @@ holing machine n (Located region d) = run
         ]
     commandsAfter = DrillMove.commandsAfter d
     limit = maybe (Mm 0) (uncurry min . Part.deviationLimits . snd) (Part.runsOf d)
+
+-- | The run of a move of a V-carving, which is block @n@. The chords of arcs keep the smaller limit
+-- of the tolerance.
+carved :: Int -> Carving -> Move -> Instruction
+carved n c m = Run (Carving n) (Sagitta limit) (Part.carvingRadius c) 0 AsProgrammed (m :| [])
+  where
+    limit = uncurry min (Part.deviationLimits (Part.carvingTolerance c))
 
 -- | Runs outside of milling, one for each move, with the cutter's radius in mm, and with the tool
 -- index 0. All moves are

@@ -184,6 +184,7 @@ clearances = concatMap heightsOf . Toolpath.blocks
       Toolpath.Cutting {Toolpath.job = Located _ job} -> milling job
       Toolpath.Clearing {Toolpath.pocket = Located _ p} -> milling (Part.wall p)
       Toolpath.Holing (Located _ d) _ -> [Part.travelHeight d]
+      Toolpath.Carved (Located _ c) _ -> [Part.carvingTravel c]
       Toolpath.Travelling {} -> []
       Toolpath.Commanding _ -> []
     milling job = maybe [] pure (Part.clearance job)
@@ -199,6 +200,7 @@ cutterText :: LengthUnit -> Cutter -> Text
 cutterText unit cutter = case Part.kind cutter of
   Part.MillingCutter -> "mill, diameter " <> diameter <> bodyText
   Part.ConeCutter -> "cone, diameter " <> diameter
+  Part.VBitCutter -> "V-bit, diameter " <> diameter <> bodyText
   Part.DovetailCutter -> "dovetail, diameter " <> diameter
   Part.BladeCutter _ -> "blade, diameter " <> diameter
   Part.DrillingCutter -> "drill, diameter " <> diameter <> bodyText

@@ -16,6 +16,7 @@ data Cutter = Cutter
   { kind :: CutterKind,
     cutterRadius :: Mm,
     -- | the region of the diameter, or of the radius of the nose; absent for a cone
+    -- and for a V-bit
     cutterSize :: Maybe Region,
     -- | the direction of the tip of a turning tool, from 1 to 9, as the tool table of a control has
     -- it; absent if the program does not give it
@@ -35,7 +36,7 @@ data ToolBody = ToolBody
     stickOut :: Maybe Mm,
     -- | the cylinders of the holder, from below. The highest one has no end
     holder :: [HolderCylinder],
-    -- | the angle of the point of a drill or of a cone; absent for other tools
+    -- | the angle of the point of a drill, of a cone or of a V-bit; absent for other tools
     pointAngle :: Maybe Rad
   }
   deriving stock (Eq, Show)
@@ -54,6 +55,8 @@ data CutterKind
     MillingCutter
   | -- | a cutter with a conical flank that is narrowest at the tip
     ConeCutter
+  | -- | a cutter with a conical flank, given by the angle of its point. It is narrowest at the tip
+    VBitCutter
   | -- | a cutter with a conical flank that is widest at the tip
     DovetailCutter
   | -- | a blade that swivels along the contour. The field is the diameter of the wheel that swivels

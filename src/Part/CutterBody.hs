@@ -5,11 +5,12 @@ module Part.CutterBody
     removalRadius,
     widensUpwards,
     pointHeight,
+    flankHeight,
     pointOf,
   )
 where
 
-import Base.Quantity (Mm (..), Rad (..))
+import Base.Quantity (Mm (..), Rad (..), minus)
 import Part.Part (Cutter (..), CutterKind (..), HolderCylinder (..), ToolBody (..))
 
 -- | A part of a tool: its radius, and the height of its lower end above the tip. It counts as if it
@@ -29,6 +30,7 @@ removalRadius :: Cutter -> Mm
 removalRadius c = case kind c of
   MillingCutter -> cutterRadius c
   ConeCutter -> tipRadius c
+  VBitCutter -> tipRadius c
   DovetailCutter -> Mm 0
   BladeCutter _ -> Mm 0
   DrillingCutter -> cutterRadius c
@@ -41,6 +43,7 @@ removalRadius c = case kind c of
 widensUpwards :: Cutter -> Bool
 widensUpwards c = case kind c of
   ConeCutter -> tipRadius c <= cutterRadius c
+  VBitCutter -> True
   _ -> False
 
 -- | The height of the point of a drill; 0 for other tools.
@@ -48,6 +51,16 @@ pointHeight :: Cutter -> Mm
 pointHeight c = case kind c of
   DrillingCutter -> let Mm r = cutterRadius c in Mm (r / tan (pointOf c / 2))
   _ -> Mm 0
+
+-- | The height of the flank of a V-bit, and that of a cone up to the height at which it touches a
+-- contour; 0 for other tools. The flank begins at the tip.
+flankHeight :: Cutter -> Mm
+flankHeight c = case (kind c, pointAngle (body c)) of
+  (ConeCutter, Just (Rad a)) -> height a
+  (VBitCutter, Just (Rad a)) -> height a
+  _ -> Mm 0
+  where
+    height a = let Mm wider = minus (cutterRadius c) (tipRadius c) in Mm (wider / tan (a / 2))
 
 -- | The angle in radians of the point of a drill: the usual 118° if the program does not give it.
 pointOf :: Cutter -> Double

@@ -23,6 +23,8 @@ import Geometry.Vec (Point)
 import Geometry.Vec qualified as Vec
 import Part.BodyError (BodyMistake)
 import Part.BodyError qualified as BodyError
+import Part.CarvingError (CarvingMistake)
+import Part.CarvingError qualified as CarvingError
 import Part.ConstructionError (ConstructionFault)
 import Part.ConstructionError qualified as ConstructionError
 import Part.ContourError (ContourFault)
@@ -63,7 +65,7 @@ data Error = Error
 
 -- | A mistake in a value, a statement or the geometry. The first field of a constructor is the
 -- region that the report points at, and its comment names the other fields in order. The last
--- nine constructors contain facts of other modules.
+-- ten constructors contain facts of other modules.
 data ValueFact
   = DivisionByZero Region
   | OutOfDomain Region Domain
@@ -111,6 +113,7 @@ data ValueFact
   | -- | a dwell that is too long: the longest one, in seconds
     DwellTooLong Region Seconds
   | InBody BodyMistake
+  | InCarving CarvingMistake
   | InDescent DescentMisfit
   | InConstruction ConstructionFault
   | InContour ContourFault
@@ -129,6 +132,7 @@ data CutterStatement
   | RestStatement
   | FaceStatement
   | EngraveStatement
+  | CarveStatement
   | DrillStatement
   | HoleStatement HoleWork
   deriving stock (Eq, Show)
@@ -295,6 +299,7 @@ factReport unit arguments fact = case fact of
   InEngraving fault -> EngravingError.toReport unit fault
   InRegion fault -> RegionError.toReport unit fault
   InBody fault -> BodyError.toReport unit fault
+  InCarving fault -> CarvingError.toReport unit fault
   InDescent fault -> DescentError.toReport unit fault
 
 -- | The sentence that a quantity has the value @x@, which breaks a rule.
@@ -399,12 +404,18 @@ wrongCutterReport (Region begin _) statement kind =
       PocketStatement -> ("pocket", "a mill", "change 2 mill(diameter 5 mm)")
       FaceStatement -> ("face", "a mill", "change 2 mill(diameter 50 mm)")
       EngraveStatement -> ("engrave", "a mill", "change 2 mill(diameter 0.5 mm)")
+      CarveStatement ->
+        ( "vcarve",
+          "a V-bit, or a cone that is narrowest at its tip",
+          "change 2 vbit(angle 60 deg, tip 0.1 mm, diameter 6 mm)"
+        )
       RestStatement -> ("rest", "a mill", "change 2 mill(diameter 5 mm)")
       DrillStatement -> ("drill", "a drill or a mill", "change 2 drill(diameter 5 mm)")
       HoleStatement work -> (HoleForm.word work, neededFor work, toolFor work)
     tool = case kind of
       MillingCutter -> "a mill"
       ConeCutter -> "a cone"
+      VBitCutter -> "a V-bit"
       DovetailCutter -> "a cone"
       BladeCutter _ -> "a blade that swivels"
       DrillingCutter -> "a drill"
@@ -415,8 +426,8 @@ wrongCutterReport (Region begin _) statement kind =
 -- | The tool that a work on holes needs.
 neededFor :: HoleWork -> Text
 neededFor work = case work of
-  Spotting -> "a drill or a cone"
-  Countersinking -> "a drill or a cone"
+  Spotting -> "a drill, a cone or a V-bit"
+  Countersinking -> "a drill, a cone or a V-bit"
   Reaming -> "a drill, which also stands for a reamer"
   Counterboring -> "a mill"
   Boring -> "a mill"

@@ -33,6 +33,7 @@ import Geometry.Vec qualified as Vec
 import Part.Assertion qualified as Assertion
 import Part.Body qualified as Body
 import Part.BodyError (BodyMistake (SafeBelowSolid))
+import Part.Carving qualified as Carving
 import Part.ContourElement qualified as ContourElement
 import Part.Curve (Fitting, PartCurve (..))
 import Part.CutFeed (SpindleRate (..))
@@ -116,9 +117,11 @@ under :: Maybe (Located Solid) -> Operation -> Operation
 under stock operation = case (stock, operation) of
   (Just (Located _ s), Mill (Located r m)) -> Mill (Located r (m `from` s))
   (Just (Located _ s), Pocket (Located r p)) -> Pocket (Located r p {wall = wall p `from` s})
+  (Just (Located _ s), Carve (Located r c)) -> Carve (Located r c {carvingTop = above s})
   _ -> operation
   where
-    m `from` s = m {materialTop = max (Mm 0) (highest s)}
+    above s = max (Mm 0) (highest s)
+    m `from` s = m {materialTop = above s}
 
 -- | The errors of a safe height that is lower than a clearance height of the program, or than a
 -- solid that the program avoids.
@@ -230,6 +233,8 @@ step state (Located at s) = case s of
       (eachPerformed Pocket)
   Checked.Engrave text settings ->
     keep (Engraving.engraving now at text settings) (eachPerformed Mill)
+  Checked.Vcarve e settings ->
+    keep (Carving.carving now at e settings) (performed Carve)
   Checked.Turn e side settings ->
     keep (Machining.milling now Turned at e side settings) (eachPerformed Mill)
   Checked.Drill points depth settings ->
@@ -321,6 +326,7 @@ isOther :: Cutter -> Cutter -> Bool
 isOther a b =
   kind a /= kind b
     || cutterRadius a /= cutterRadius b
+    || tipRadius a /= tipRadius b
     || pointAngle (body a) /= pointAngle (body b)
     || or [m /= n | Just m <- [tip a], Just n <- [tip b]]
 

@@ -299,6 +299,7 @@ depthOfMouth tool at d
 tipOf :: Cutter -> Double
 tipOf tool = case kind tool of
   ConeCutter -> let Mm r = tipRadius tool in r
+  VBitCutter -> let Mm r = tipRadius tool in r
   _ -> 0
 
 -- | The milling of cylinders with the diameter @d@, the deepest one down to @deep@, with turns of

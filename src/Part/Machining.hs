@@ -33,6 +33,7 @@ import Geometry.Segment qualified as Segment
 import Geometry.Tolerance qualified as Tolerance
 import Geometry.WindingNumber qualified as WindingNumber
 import Part.Body qualified as Body
+import Part.CarvingError (CarvingMistake (NoFlank, NotPointed))
 import Part.ContourElement qualified as ContourElement
 import Part.ContourError (ContourFault (OpenBegins))
 import Part.CurveError (CurveMistake (SteepBevel))
@@ -397,24 +398,26 @@ spacePoint v = case v of
 -- | Fails if the kind of the tool in the spindle does not suit the statement.
 checkCutter :: Context -> Region -> CutterStatement -> Eval ()
 checkCutter context at statement = case cutter context of
-  Just c | not (fits (kind c)) -> Evaluation.mistake (WrongCutter at statement (kind c))
+  Just c | not (fits c (kind c)) -> Evaluation.mistake (WrongCutter at statement (kind c))
   _ -> pure ()
   where
-    fits cutterKind = case statement of
+    fits c cutterKind = case statement of
       MillStatement -> isMill cutterKind
       TurnStatement -> cutterKind == TurningCutter
       PocketStatement -> cutterKind == MillingCutter
       RestStatement -> cutterKind == MillingCutter
       FaceStatement -> cutterKind == MillingCutter
-      EngraveStatement -> cutterKind `elem` [MillingCutter, ConeCutter]
+      EngraveStatement -> cutterKind `elem` [MillingCutter, ConeCutter, VBitCutter]
+      -- A cone of the bevel 0 has no point.
+      CarveStatement -> cutterKind `elem` [ConeCutter, VBitCutter] && isJust (pointAngle (body c))
       DrillStatement -> cutterKind `elem` [DrillingCutter, MillingCutter]
       HoleStatement work -> fitsHole work cutterKind
 
 -- | True for the kinds of tools that make holes in this way.
 fitsHole :: Checked.HoleWork -> CutterKind -> Bool
 fitsHole work cutterKind = case work of
-  Checked.Spotting -> cutterKind `elem` [DrillingCutter, ConeCutter]
-  Checked.Countersinking -> cutterKind `elem` [DrillingCutter, ConeCutter]
+  Checked.Spotting -> cutterKind `elem` [DrillingCutter, ConeCutter, VBitCutter]
+  Checked.Countersinking -> cutterKind `elem` [DrillingCutter, ConeCutter, VBitCutter]
   Checked.Reaming -> cutterKind == DrillingCutter
   Checked.Counterboring -> cutterKind == MillingCutter
   Checked.Boring -> cutterKind == MillingCutter
@@ -430,6 +433,8 @@ isMill cutterKind = case cutterKind of
   ConeCutter -> True
   DovetailCutter -> True
   BladeCutter _ -> True
+  -- Its radius is that of its top.
+  VBitCutter -> False
   DrillingCutter -> False
   TurningCutter -> False
   TappingCutter -> False
@@ -451,6 +456,7 @@ cutterOf env (Located _ c) = case c of
       PitchTooLong (region pitch) own (times 2 r)
     withBody sizes (sized (ThreadCutter own) e r)
   Checked.ConeCutter e lean h -> cone env e lean h
+  Checked.VBitCutter angle narrow wide -> vBit env angle narrow wide
   Checked.BladeCutter e g -> do
     d <- lengthOf env Parameter.BladeDiameter e
     wheel <- lengthOf env Parameter.WheelDiameter g
@@ -480,6 +486,28 @@ cone env e lean h = do
   let kind' = if mu < 0 then DovetailCutter else ConeCutter
       pointed = if mu > 0 then plainBody {pointAngle = Just (Rad (2 * mu))} else plainBody
   pure (Cutter kind' (Mm a) Nothing Nothing (Mm (d / 2)) pointed)
+
+-- | Evaluates a V-bit from three expressions: the angle from flank to flank (@angle@), and the
+-- diameters of its tip (@narrow@) and of the top of its flank (@wide@).
+vBit :: Environment -> Expr -> Expr -> Expr -> Eval Cutter
+vBit env angle narrow wide = do
+  a <- Expression.number <$> Expression.evaluate env angle
+  when
+    (a <= 0 || a >= pi - Tolerance.equal)
+    (Evaluation.mistake (InCarving (NoFlank (region angle) (Rad a))))
+  across <- notNegative env Parameter.TipDiameter narrow
+  top <- lengthOf env Parameter.CutterDiameter wide
+  when (top <= across) . Evaluation.mistake . InCarving $
+    NotPointed (region wide) top (region narrow, across)
+  pure
+    Cutter
+      { kind = VBitCutter,
+        cutterRadius = times 0.5 top,
+        cutterSize = Nothing,
+        tip = Nothing,
+        tipRadius = times 0.5 across,
+        body = plainBody {pointAngle = Just (Rad a)}
+      }
 
 -- | The allowed chord error that a @tolerance@ statement sets.
 accuracyOf :: Environment -> Checked.Accuracy -> Eval (Located Accuracy)

@@ -37,6 +37,7 @@ data LimitedQuantity
     CurveTolerance
   | CutterDiameter
   | DrillDiameter
+  | TipDiameter
   | TapDiameter
   | BladeDiameter
   | WheelDiameter
@@ -98,6 +99,7 @@ name parameter = case parameter of
   CurveTolerance -> "the tolerance of a curve"
   CutterDiameter -> "the cutter's diameter"
   DrillDiameter -> "the drill's diameter"
+  TipDiameter -> "the diameter of the tip"
   TapDiameter -> "the tap's diameter"
   BladeDiameter -> "the blade's diameter"
   WheelDiameter -> "the diameter of the wheel"

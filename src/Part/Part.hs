@@ -36,6 +36,7 @@ module Part.Part
     HoleForm (..),
     TapStroke (..),
     Circling (..),
+    Carving (..),
     ThreadHelix (..),
     runsOf,
     Command (..),
@@ -244,6 +245,7 @@ data Operation
   = Mill (Located Milling)
   | Pocket (Located Pocketing)
   | Drill (Located Drilling)
+  | Carve (Located Carving)
   | -- | moves without cutting, given by their ends in order
     Travel (NonEmpty Stop)
   | Command (Located Command)
@@ -516,6 +518,35 @@ runsOf d = case form d of
   Plunged -> Nothing
   Reamed -> Nothing
   Tapped _ -> Nothing
+
+-- | The V-carving of a region. The cone of the tool touches the top edges of the region, and its
+-- tip is as deep as it then comes, but no deeper than 'carvingDepth'.
+data Carving = Carving
+  { -- | the connected areas of the region: the outline of each, counter-clockwise, and the holes in
+    -- it, clockwise. All are closed. The contours of one area do not touch one another
+    carvedAreas :: NonEmpty (Contour, [Contour]),
+    -- | the radius of the tool at its tip
+    carvingTip :: Mm,
+    -- | the radius of the tool at the top of its flank
+    carvingRadius :: Mm,
+    -- | the angle between the flank and the axis, above 0 and below a right angle
+    halfAngle :: Rad,
+    -- | the largest depth of the tip below the top of the part, above 0, and at most the height of
+    -- the flank
+    carvingDepth :: Mm,
+    -- | the region of the depth
+    carvingDepthAt :: Region,
+    carvingTolerance :: Accuracy,
+    carvingFeed :: Located CutFeed,
+    -- | the feed of moves straight down into the material
+    carvingPlunge :: Maybe (Located CutFeed),
+    -- | the height of rapid moves over the part
+    carvingTravel :: Mm,
+    -- | the height at which the material begins: 0, or the top of the stock if that is higher
+    carvingTop :: Mm,
+    carvingRest :: RestPolicy
+  }
+  deriving stock (Eq, Show)
 
 -- | A command to the machine: an auxiliary function.
 data Command

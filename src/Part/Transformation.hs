@@ -15,9 +15,11 @@ import Part.Part
 
 -- | The image of a solid under the transformation @s@, which does not change its heights.
 solid :: Transformation -> Solid -> Solid
-solid s body' = body' {outlines = map (onLeft . image s) (outlines body')}
-  where
-    onLeft c = if Transformation.mirrors s then reversedContour c else c
+solid s body' = body' {outlines = map (onLeft s . image s) (outlines body')}
+
+-- | The image of a contour that has a region on its left, in the direction in which it still has.
+onLeft :: Transformation -> Contour -> Contour
+onLeft s c = if Transformation.mirrors s then reversedContour c else c
 
 -- | The image of a contour. It is no longer the contour that the program writes.
 image :: Transformation -> Contour -> Contour
@@ -47,9 +49,11 @@ operation s o = case o of
       )
   Drill (Located at d) ->
     Drill (Located at d {holes = fmap placed (holes d)})
+  Carve (Located at c) -> Carve (Located at c {carvedAreas = fmap area (carvedAreas c)})
   Travel stops -> Travel (NonEmpty.map stop stops)
   Command c -> Command c
   where
+    area (outer, inner) = (onLeft s (image s outer), map (onLeft s . image s) inner)
     milling m =
       m
         { contour = image s (contour m),

@@ -167,6 +167,7 @@ kindName :: Part.CutterKind -> Text
 kindName kind = case kind of
   Part.MillingCutter -> "mill"
   Part.ConeCutter -> "cone"
+  Part.VBitCutter -> "V-bit"
   Part.DovetailCutter -> "dovetail"
   Part.BladeCutter _ -> "blade"
   Part.DrillingCutter -> "drill"
@@ -230,7 +231,8 @@ movesOf path = concatMap ofBlock (ToolUse.blocksWithTools path)
     movesWith tool block = case block of
       Commanding _ -> []
       Travelling _ _ moves -> map (linking tool True) moves
-      Holing _ moves -> [DrawnMove m (Toolpath.pace m /= Part.Rapid) tool True | m <- moves]
+      Holing _ moves -> map (worked tool) moves
+      Carved _ moves -> map (worked tool) (NonEmpty.toList moves)
       Cutting {pass, approach, descent, cut, retract} ->
         let isLast = isFinal pass
          in map (linking tool isLast) (approach <> descent)
@@ -240,6 +242,7 @@ movesOf path = concatMap ofBlock (ToolUse.blocksWithTools path)
         map (linking tool True) approach
           <> [DrawnMove m (Draw.isCut m) tool True | m <- NonEmpty.toList cleared]
           <> map (linking tool True) retract
+    worked tool m = DrawnMove m (Toolpath.pace m /= Part.Rapid) tool True
     linking tool isLast m = DrawnMove m False tool isLast
 
 -- | The seven numbers of a segment.

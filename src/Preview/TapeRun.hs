@@ -143,9 +143,10 @@ frameFacts :: FileLines -> Toolpath -> [PlannedFrame] -> [FrameFact]
 frameFacts known path planned = zipWith fact planned tools
   where
     radii = map (Part.cutterRadius . ToolUse.cutter) (ToolUse.uses path)
-    (ofPasses, ofDrilling) = toolsOfBlocks path
+    (ofPasses, ofBlocks) = toolsOfBlocks path
     own p = case role p of
-      Drilling n -> IntMap.lookup n ofDrilling
+      Drilling n -> IntMap.lookup n ofBlocks
+      Carving n -> IntMap.lookup n ofBlocks
       other -> Frame.passNumber other >>= (`IntMap.lookup` ofPasses)
     laterTools = drop 1 (scanr (\p later -> own p <|> later) Nothing planned)
     tools = snd (List.mapAccumL next (-1) (zip planned laterTools))
@@ -159,17 +160,18 @@ frameFacts known path planned = zipWith fact planned tools
     cuts role' = case role' of
       Cutting _ -> True
       Drilling _ -> True
+      Carving _ -> True
       Approaching _ -> False
       Retracting _ -> False
       Linking -> False
       Commanding -> False
 
--- | Tools of the passes by their numbers, and of the blocks of drilling by the numbers of the
--- blocks.
+-- | Tools of the passes by their numbers, and of the blocks of drilling and carving by the
+-- numbers of the blocks.
 toolsOfBlocks :: Toolpath -> (IntMap Int, IntMap Int)
 toolsOfBlocks path =
   ( IntMap.fromList [(pass, tool) | ((Just tool, b), _, pass) <- inUse, isPass b],
-    IntMap.fromList [(n, tool) | ((Just tool, Toolpath.Holing _ _), n, _) <- inUse]
+    IntMap.fromList [(n, tool) | ((Just tool, b), n, _) <- inUse, hasRole b]
   )
   where
     inUse =
@@ -177,9 +179,14 @@ toolsOfBlocks path =
         (ToolUse.blocksWithTools path)
         [0 ..]
         (Toolpath.passNumbers (Toolpath.blocks path))
+    hasRole b = case b of
+      Toolpath.Holing _ _ -> True
+      Toolpath.Carved _ _ -> True
+      _ -> False
     isPass b = case b of
       Toolpath.Cutting {} -> True
       Toolpath.Clearing {} -> True
       Toolpath.Travelling {} -> False
       Toolpath.Holing _ _ -> False
+      Toolpath.Carved _ _ -> False
       Toolpath.Commanding _ -> False

@@ -232,7 +232,7 @@ braced parent = case reverse (heads parent) of
   [] -> level inner []
   where
     inner = if opening parent == Items then Items else Statements
-    machiningWords = ["mill", "turn", "pocket", "rest", "face", "engrave", "drill"]
+    machiningWords = ["mill", "turn", "pocket", "rest", "face", "engrave", "vcarve", "drill"]
 
 parenthesis :: Token -> Level -> Opening
 parenthesis token parent = case heads parent of
@@ -245,7 +245,7 @@ parenthesis token parent = case heads parent of
     _ -> Parenthesis
   _ -> Parenthesis
   where
-    cutters = ["mill", "drill", "tap", "threadmill", "turn", "cone", "blade"]
+    cutters = ["mill", "drill", "tap", "threadmill", "turn", "cone", "vbit", "blade"]
 
 -- | The levels after a closing bracket. Levels inside the one that it closes are dropped. A bracket
 -- that closes nothing is dropped.

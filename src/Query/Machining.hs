@@ -12,8 +12,9 @@ import Base.Region (Located (..), Region)
 import Data.IntMap.Strict (IntMap)
 import Data.IntMap.Strict qualified as IntMap
 import Data.Map.Strict qualified as Map
+import Data.Maybe (mapMaybe)
 import Data.Text (Text)
-import Frame.Frame (FrameProgram, PlannedFrame (PlannedFrame, role), Role (Drilling))
+import Frame.Frame (FrameProgram, PlannedFrame, Role (Carving, Drilling))
 import Frame.Frame qualified as Frame
 import Frame.MoveTime (moveLength, moveTime, pathTime)
 import Machine.Machine (Machine, MachineName (..))
@@ -64,16 +65,20 @@ summary toolpath machine program =
     work = statements (Just (machine, frameCounts planned)) toolpath
 
 -- | Counts of frames: those of each pass by the number of the pass, and those of each block of
--- drilling by the number of the block. Both numbers are from 0.
-data FrameCounts = FrameCounts {ofPasses :: IntMap Int, ofDrilling :: IntMap Int}
+-- drilling or carving by the number of the block. Both numbers are from 0.
+data FrameCounts = FrameCounts {ofPasses :: IntMap Int, ofBlocks :: IntMap Int}
 
 frameCounts :: [PlannedFrame] -> FrameCounts
 frameCounts planned =
   FrameCounts
     { ofPasses = counted [n | f <- planned, Just n <- [Frame.passNumber (Frame.role f)]],
-      ofDrilling = counted [n | PlannedFrame {role = Drilling n} <- planned]
+      ofBlocks = counted (mapMaybe (blockOf . Frame.role) planned)
     }
   where
+    blockOf role = case role of
+      Drilling n -> Just n
+      Carving n -> Just n
+      _ -> Nothing
     counted numbers = IntMap.fromListWith (+) [(n, 1) | n <- numbers]
 
 -- | The summaries of the machining statements, in the order of the text. The counts of frames come
@@ -96,12 +101,13 @@ ofBlock :: Maybe (Machine, FrameCounts) -> Int -> Int -> Block -> Maybe Statemen
 ofBlock made number passNumber block = case block of
   Cutting {job = Located at _} -> Just (summed at 1 (ofPass . snd <$> made))
   Clearing {pocket = Located at _} -> Just (summed at 1 (ofPass . snd <$> made))
-  Holing (Located at _) _ -> Just (summed at 0 (ofHoles . snd <$> made))
+  Holing (Located at _) _ -> Just (summed at 0 (ofBlockFrames . snd <$> made))
+  Carved (Located at _) _ -> Just (summed at 1 (ofBlockFrames . snd <$> made))
   Travelling {} -> Nothing
   Commanding _ -> Nothing
   where
     ofPass = IntMap.findWithDefault 0 passNumber . ofPasses
-    ofHoles = IntMap.findWithDefault 0 number . ofDrilling
+    ofBlockFrames = IntMap.findWithDefault 0 number . ofBlocks
     summed at passes ownFrames =
       StatementSummary
         { statement = at,

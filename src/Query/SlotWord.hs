@@ -108,6 +108,7 @@ clearingEntries keyword = case keyword of
     own (value Contour) (words' ["step"])
       <> [("step", (value Type.len, words' ["as"])), ("as", ([], []))]
   "face" -> own (value Contour) (words' ["step"]) <> [("step", (value Type.len, []))]
+  "vcarve" -> own (value Contour) []
   "rest" ->
     own (words' ["of"]) []
       <> [("of", (value Clearing, words' ["step"])), ("step", (value Type.len, []))]
@@ -162,7 +163,7 @@ commandEntries keyword = case keyword of
     own follows after = [(keyword, (follows, after))]
 
 cutterKinds :: [Text]
-cutterKinds = ["mill", "drill", "tap", "threadmill", "turn", "cone", "blade"]
+cutterKinds = ["mill", "drill", "tap", "threadmill", "turn", "cone", "vbit", "blade"]
 
 pieceEntries :: [(Text, ([Slot], [Slot]))]
 pieceEntries =
@@ -274,6 +275,7 @@ cutterWords kind = case kind of
   "threadmill" -> ["diameter", "pitch", "flutes", "stickout", "holder"]
   "turn" -> ["nose", "tip"]
   "cone" -> ["diameter", "bevel", "height"]
+  "vbit" -> ["angle", "tip", "diameter"]
   "blade" -> ["diameter", "gear"]
   _ -> ["diameter"]
 

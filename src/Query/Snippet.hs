@@ -66,6 +66,7 @@ cuttingStatements =
     ( "engrave",
       "engrave \"${1:text}\" at (${2:0}, ${3:0}) height ${4:5 mm} {\n  depth ${5:0.3 mm}\n  $0\n}"
     ),
+    ("vcarve", "vcarve ${1:region} {\n  depth ${2:2 mm}\n  $0\n}"),
     ("rest", "rest of ${1:rough} step ${2:1 mm} {\n  depth ${3:5 mm}\n  $0\n}"),
     ("drill", "drill at ${1:points} depth ${2:5 mm}"),
     ("turn", "turn ${1:contour} ${2:outside} {\n  approach (${3:0}, ${4:0})\n  $0\n}")
@@ -122,6 +123,7 @@ cutters =
     ("threadmill", "threadmill(diameter ${1:6 mm}, pitch ${2:1 mm})"),
     ("turn", "turn(nose ${1:0.4 mm})"),
     ("cone", "cone(diameter ${1:6 mm}, bevel ${2:5 deg}, height ${3:3 mm})"),
+    ("vbit", "vbit(angle ${1:60 deg}, tip ${2:0.1 mm}, diameter ${3:6 mm})"),
     ("blade", "blade(diameter ${1:40 mm}, gear ${2:20 mm})")
   ]
 
@@ -143,9 +145,11 @@ inchSizes :: [(Text, Text)]
 inchSizes =
   [ ("0 mm", "0 in"),
     ("0.02 mm", "0.001 in"),
+    ("0.1 mm", "0.005 in"),
     ("0.3 mm", "0.01 in"),
     ("0.4 mm", "0.016 in"),
     ("1 mm", "0.04 in"),
+    ("2 mm", "0.08 in"),
     ("3 mm", "0.1 in"),
     ("5 mm", "0.2 in"),
     ("6 mm", "0.25 in"),

@@ -93,7 +93,7 @@ moved regionMap s = do
 -- | The symbol of a statement; 'Nothing' if it has none. A definition is shown by its name. Any
 -- other statement is shown by the beginning of its text. For @mill@ and @turn@ this text ends with
 -- the side, for @pocket@, @rest of@ and @face@ with the stepover, for @drill@ with the depth,
--- for @engrave@ with the height.
+-- for @engrave@ with the height, for @vcarve@ with the region.
 symbol :: Source -> Statement -> Maybe DocumentSymbol
 symbol source (Located whole s) = case s of
   Part name title -> definition Part' name (maybe "" value title)
@@ -109,6 +109,7 @@ symbol source (Located whole s) = case s of
   Pocket contour stepover own _ -> machining (region stepover) (maybe (region contour) region own)
   RestOf clearing stepover _ -> machining (region stepover) (region clearing)
   Face contour stepover _ -> machining (region stepover) (region contour)
+  Vcarve e _ -> machining (region e) (region e)
   Engrave text _ -> machining (region (textHeight text)) (region (lettered text))
   Turn contour side _ -> machining (region side) (region contour)
   Drill holes depth _ -> machining (region depth) (region holes)

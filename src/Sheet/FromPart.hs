@@ -89,6 +89,7 @@ runsOf = go []
         Right (Run {stops, keywordRegion, milled = (keywordRegion, m)} : runs, final)
       Part.Pocket (Located at _) : _ -> Left (NoNumbers at PocketClearing)
       Part.Drill (Located at _) : _ -> Left (NoNumbers at DrillingHoles)
+      Part.Carve (Located at _) : _ -> Left (NoNumbers at CarvingRegion)
       Part.Command (Located at c) : rest ->
         maybe (go before rest) (Left . NoNumbers at) (commandFeature c)
 

@@ -48,6 +48,7 @@ data Unfit
 data Feature
   = PocketClearing
   | DrillingHoles
+  | CarvingRegion
   | SpindleCommand
   | CoolantCommand
   | AuxiliaryCommand
@@ -193,6 +194,7 @@ featureText :: Feature -> Text
 featureText feature = case feature of
   PocketClearing -> "the clearing of a pocket"
   DrillingHoles -> "drilling"
+  CarvingRegion -> "a V-carving"
   SpindleCommand -> "a command to the spindle"
   CoolantCommand -> "a command to the coolant"
   AuxiliaryCommand -> "an auxiliary command"

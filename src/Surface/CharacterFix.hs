@@ -116,7 +116,7 @@ diameterFixes region around = case (before around, following around) of
   where
     put = Fix.exchange "Write diameter instead." region
     isCutter ts = case map shape ts of
-      _ : Word kind : _ -> kind `elem` ["mill", "drill", "cone", "blade"]
+      _ : Word kind : _ -> kind `elem` ["mill", "drill", "cone", "vbit", "blade"]
       _ -> False
 
 -- | Writes all powers on the rest of a line as products.

@@ -101,6 +101,7 @@ statementForms =
     ("rest", RestOf <$> (keyword "of" *> expr) <*> stepover <*> settings "rest"),
     ("face", Face <$> expr <*> stepover <*> settings "face"),
     ("engrave", engraving expr settings),
+    ("vcarve", Vcarve <$> expr <*> settings "vcarve"),
     ("turn", machining "turn" Turn),
     ( "drill",
       keyword "at"

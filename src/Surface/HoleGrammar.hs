@@ -33,7 +33,7 @@ hole expr settings work =
       _ -> pure Nothing
 
 -- | A cutter: @mill(diameter 20 mm)@, @drill(…)@, @tap(…)@, @threadmill(…)@, @turn(…)@, @cone(…)@,
--- @blade(…)@.
+-- @vbit(…)@, @blade(…)@.
 cutter :: Parser Expr -> Parser Cutter
 cutter expr =
   located $
@@ -57,6 +57,14 @@ cutter expr =
                       <*> further "height" coneForm
                 )
           )
+      <|> ( keyword "vbit"
+              *> parens
+                ( VBitCutter
+                    <$> measured "angle"
+                      <*> further "tip" bitForm
+                      <*> further "diameter" bitForm
+                )
+          )
       <|> ( keyword "blade"
               *> parens (BladeCutter <$> measured "diameter" <*> further "gear" bladeForm)
           )
@@ -72,5 +80,6 @@ cutter expr =
     tip = symbol "," *> measured "tip"
     further measure form = (symbol "," <?> form) *> measured measure
     coneForm = "the rest of cone(diameter 20 mm, bevel 5 deg, height 30 mm)"
+    bitForm = "the rest of vbit(angle 60 deg, tip 0.2 mm, diameter 6 mm)"
     bladeForm = "the rest of blade(diameter 20 mm, gear 70 mm)"
     threadForm = "the rest of threadmill(diameter 8 mm, pitch 1.5 mm)"

@@ -32,7 +32,8 @@ statements =
 -- @contour pocket closed@. Some of them are whole statements, some need a word after them.
 softStatements :: [Text]
 softStatements =
-  ["pocket", "rest", "face", "engrave", "units", "work", "program", "safe", "stock", "avoid"]
+  ["pocket", "rest", "face", "engrave", "vcarve"]
+    <> ["units", "work", "program", "safe", "stock", "avoid"]
     <> ["contours", "stop", "optional", "dwell"]
     <> HoleForm.words'
 
@@ -65,6 +66,7 @@ settingsOf statement = case statement of
   "face" ->
     ["approach", "retract", "climb", "conventional", "angle", "depth", "plunge"]
   "engrave" -> ["depth", "plunge", "ramp"]
+  "vcarve" -> ["depth", "plunge", "rest"]
   "turn" -> linkingMoves <> passes
   "drill" -> ["peck", "chip break", "dwell", "plunge", "shortest"]
   "spot" -> ["dwell", "plunge", "shortest"]

@@ -145,6 +145,7 @@ statement comments indent (Located _ s) = case s of
   Face e step settings ->
     clearing (spaced [Text "face", value e, Text "step", value step]) settings
   Engrave text settings -> clearing (lettering comments text) settings
+  Vcarve e settings -> clearing (spaced [Text "vcarve", value e]) settings
   Turn e side settings -> machining "turn" e side settings
   Drill at depth settings ->
     let before = spaced [Text "drill at", value at, Text "depth", value depth]
@@ -343,6 +344,9 @@ cutter comments (Located _ c) = case c of
         value h,
         Text ")"
       ]
+  VBitCutter a t d ->
+    Beside
+      [Text "vbit(angle ", value a, Text ", tip ", value t, Text ", diameter ", value d, Text ")"]
   BladeCutter d g -> Beside [Text "blade(diameter ", value d, Text ", gear ", value g, Text ")"]
   where
     made before e sizes =

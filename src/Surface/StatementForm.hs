@@ -68,6 +68,7 @@ cutterForms =
     ("tap", "tap(diameter 6 mm)"),
     ("threadmill", "threadmill(diameter 6 mm, pitch 1 mm)"),
     ("cone", "cone(diameter 20 mm, bevel 5 deg, height 30 mm)"),
+    ("vbit", "vbit(angle 60 deg, tip 0.2 mm, diameter 6 mm)"),
     ("blade", "blade(diameter 20 mm, gear 70 mm)"),
     ("turn", "turn(nose 0.8 mm), or turn(nose 0.8 mm, tip 2)")
   ]
@@ -82,7 +83,8 @@ lineTokens around
     (same, []) -> same
 
 settingBlocks :: [Text]
-settingBlocks = ["mill", "pocket", "rest", "face", "engrave", "turn", "drill"] <> HoleForm.words'
+settingBlocks =
+  ["mill", "pocket", "rest", "face", "engrave", "vcarve", "turn", "drill"] <> HoleForm.words'
 
 -- | The keyword of the statement around a token; empty if there is none.
 blockWord :: TokenContext -> Text
@@ -144,6 +146,7 @@ statementForms =
     ("rest", "rest of rough step 2 { depth 4 }"),
     ("face", "face blank step 20 { depth 0 step 1 }"),
     ("engrave", "engrave \"12\" at (10, 20) height 8 { depth 0.3 }"),
+    ("vcarve", "vcarve letters { depth 2 }"),
     ("turn", "turn profile outside { allowance 1, 0 }"),
     ("drill", "drill at (10, 20) depth 15 { peck 5 }"),
     ("spot", "spot at (10, 20) depth 1, or spot at (10, 20) diameter 3"),

@@ -151,6 +151,8 @@ data Statement_
     Face Expr Expr [Setting]
   | -- | @engrave "12" at p height 8 { … }@
     Engrave Lettering [Setting]
+  | -- | @vcarve letters { … }@: the region to carve
+    Vcarve Expr [Setting]
   | -- | @turn profile outside { … }@
     Turn Expr (Located Side) [Setting]
   | -- | @drill at holes depth 12 mm { … }@
@@ -244,6 +246,9 @@ data Cutter_
   | -- | @cone(diameter d, bevel a, height h)@: a conical mill. The arguments are the diameter of
     -- the tip of the mill, the bevel of its flank, and the height of the contour above the tip.
     ConeCutter Expr Expr Expr
+  | -- | @vbit(angle a, tip d, diameter e)@: the angle from flank to flank, the diameters of the tip
+    -- and at the top of the flank
+    VBitCutter Expr Expr Expr
   | -- | @tap(diameter d)@, with the sizes of its body
     TapCutter Expr [BodySize]
   | -- | @threadmill(diameter d, pitch p)@, with the sizes of its body

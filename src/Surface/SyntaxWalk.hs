@@ -121,6 +121,7 @@ ofStatement (Located _ s) = case s of
   RestOf e stepover settings -> e : stepover : concatMap ofSetting settings
   Face e stepover settings -> e : stepover : concatMap ofSetting settings
   Engrave text settings -> ofLettering text <> concatMap ofSetting settings
+  Vcarve e settings -> e : concatMap ofSetting settings
   Turn e _ settings -> e : concatMap ofSetting settings
   Drill e deep settings -> e : deep : concatMap ofSetting settings
   Hole _ e sizes _ settings -> e : map snd sizes <> concatMap ofSetting settings
@@ -214,6 +215,7 @@ ofCutter (Located _ c) = case c of
   ThreadMillCutter e pitch sizes -> e : pitch : concatMap ofBodySize sizes
   TurningCutter e tip -> e : maybeToList tip
   ConeCutter a b d -> [a, b, d]
+  VBitCutter a b d -> [a, b, d]
   BladeCutter a b -> [a, b]
 
 ofBodySize :: BodySize -> [Expr]

@@ -90,7 +90,7 @@ made before n = Token {place = Region 0 0, shape = n, newLine = False, attached 
     -- A bracket follows a function or a cutter without a space.
     isFunction t = case shape t of
       Word w ->
-        w `elem` ["mill", "drill", "turn", "cone", "blade"]
+        w `elem` ["mill", "drill", "turn", "cone", "vbit", "blade"]
           || not (Keyword.isReserved w || Keyword.beginsItem w)
             && w `notElem` Text.words "at step to by"
       _ -> False

@@ -70,6 +70,7 @@ statement s = case s of
     Pocket (expr e) (expr step) (fmap here own) (map (unlocated setting) settings)
   RestOf e step settings -> RestOf (expr e) (expr step) (map (unlocated setting) settings)
   Face e step settings -> Face (expr e) (expr step) (map (unlocated setting) settings)
+  Vcarve e settings -> Vcarve (expr e) (map (unlocated setting) settings)
   Engrave text settings -> Engrave (lettering text) (map (unlocated setting) settings)
   Turn e side settings -> Turn (expr e) (here side) (map (unlocated setting) settings)
   Drill at depth settings -> Drill (expr at) (expr depth) (map (unlocated setting) settings)
@@ -151,6 +152,7 @@ cutter c = case c of
     ThreadMillCutter (expr e) (expr pitch) (map (unlocated bodySize) sizes)
   TurningCutter e tip -> TurningCutter (expr e) (fmap expr tip)
   ConeCutter d a h -> ConeCutter (expr d) (expr a) (expr h)
+  VBitCutter a t d -> VBitCutter (expr a) (expr t) (expr d)
   BladeCutter d g -> BladeCutter (expr d) (expr g)
 
 bodySize :: BodySize_ -> BodySize_

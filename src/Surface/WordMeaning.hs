@@ -145,6 +145,7 @@ statementMeant word = lookup (Text.toLower word) table
               ("pocket", "pocketing pocket_mill"),
               ("face", "facing face_mill facemill surfacing"),
               ("engrave", "text lettering letters etch scribe"),
+              ("vcarve", "carve carving v_carve v_carving vcarving"),
               ("rest of", "rest_mill rest_milling restmill remachine"),
               ("coolant on", "flood m8 m08"),
               ("coolant off", "m9 m09"),

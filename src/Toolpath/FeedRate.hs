@@ -12,7 +12,8 @@ import Data.List (mapAccumL)
 import Part.CutFeed (CutFeed, SpindleRate (..))
 import Part.CutFeed qualified as CutFeed
 import Part.Part
-  ( Command (..),
+  ( Carving,
+    Command (..),
     Contour,
     Drilling,
     Element,
@@ -32,6 +33,7 @@ withRates = snd . mapAccumL next NoRate
       Mill m -> (rate, Mill (milling rate <$> m))
       Pocket p -> (rate, Pocket (pocketing rate <$> p))
       Drill d -> (rate, Drill (drilling rate <$> d))
+      Carve c -> (rate, Carve (carving rate <$> c))
       Travel stops -> (rate, Travel (fmap (stop rate) stops))
 
 -- | Rate after a command.
@@ -69,6 +71,13 @@ drilling rate d =
         Part.Bored c -> Part.Bored c {Part.circleFeed = located rate (Part.circleFeed c)}
         Part.Threaded h -> Part.Threaded h {Part.helixFeed = located rate (Part.helixFeed h)}
         other -> other
+    }
+
+carving :: SpindleRate -> Carving -> Carving
+carving rate c =
+  c
+    { Part.carvingFeed = located rate (Part.carvingFeed c),
+      Part.carvingPlunge = located rate <$> Part.carvingPlunge c
     }
 
 -- | A contour without feeds for one turn stays the same in memory.

@@ -2,8 +2,9 @@
 -- approaches and retracts, holes, and the linking moves between them.
 --
 -- A milling statement becomes one block for each pass. "Toolpath.CuttingPass" makes the moves of a
--- pass, "Toolpath.PocketMove" those of a pocket, "Toolpath.DrillMove" those of holes. A toolpath
--- that cuts a contour where the program does not allow it is refused ("Toolpath.Intrusion").
+-- pass, "Toolpath.PocketMove" those of a pocket, "Toolpath.DrillMove" those of holes,
+-- "Toolpath.CarvingPath" those of a V-carving. A toolpath that cuts a contour where the program
+-- does not allow it is refused ("Toolpath.Intrusion").
 module Toolpath.FromPart
   ( toToolpath,
     leadingSide,
@@ -37,6 +38,7 @@ import Part.Part
     Work (..),
   )
 import Part.Part qualified as Part
+import Toolpath.CarvingPath qualified as CarvingPath
 import Toolpath.CuttingPass (CuttingPass (CuttingPass), touchedRadius)
 import Toolpath.CuttingPass qualified as CuttingPass
 import Toolpath.DrillMove qualified as DrillMove
@@ -196,6 +198,7 @@ blocksOf State {number, toolRadius, at} operation = case operation of
      in Right [Travelling toolRadius ends (LinkingMove.straightMoves at ends)]
   Command c -> Right [Commanding c]
   Drill d -> Right [Holing d (DrillMove.moves at d)]
+  Carve c -> (: []) . Carved c <$> CarvingPath.moves at c
   Pocket job -> PocketMove.blocks number at job
   Mill (Located region given) -> do
     possible region given

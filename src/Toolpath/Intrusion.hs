@@ -108,6 +108,8 @@ intrusionsOfBlock machined b = case b of
      in map
           (asHole d)
           (concat [found (plainIntruder (widthOf m)) {working = Just d} m | m <- ms])
+  -- The proof compares its moves with the region.
+  Carved _ _ -> []
   Cutting {} -> intrusionsOfPass machined b
   Clearing {pocket = job@(Located _ p), pass, approach, cleared, retract} ->
     let clearing = plainIntruder (radius (Part.wall p))

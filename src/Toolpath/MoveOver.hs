@@ -30,6 +30,11 @@ overSolids solids blocks
       Travelling {} -> b
       Commanding _ -> b
       Holing d ms -> Holing d (raised cutter (Just (Part.travelHeight (value d))) ms)
+      Carved c (m :| more) ->
+        -- The first move leads to the first point.
+        case raised cutter (Just (Part.carvingTravel (value c))) (m : more) of
+          m' : more' -> Carved c (m' :| more')
+          [] -> b
       Cutting {job, approach, retract, sent} ->
         let up = raised cutter (Part.clearance (value job))
          in b {approach = up approach, retract = up retract, sent = sentOver up <$> sent}

@@ -42,7 +42,18 @@ import Geometry.Segment (Segment)
 import Geometry.Segment qualified as Segment
 import Geometry.Vec (Point)
 import Offset.Equidistant qualified as Equidistant
-import Part.Part (Command, Cutter, Drilling, Milling, Pace, Pocketing, Solid, SpacePoint (..), Stop)
+import Part.Part
+  ( Carving,
+    Command,
+    Cutter,
+    Drilling,
+    Milling,
+    Pace,
+    Pocketing,
+    Solid,
+    SpacePoint (..),
+    Stop,
+  )
 import Part.Part qualified as Part
 import Part.TurnedArea (OpenSide (..))
 
@@ -124,6 +135,8 @@ data Block
       }
   | -- | the holes of a drilling statement
     Holing (Located Drilling) [Move]
+  | -- | the V-carving of a region
+    Carved (Located Carving) (NonEmpty Move)
   | -- | a command to the machine, such as a tool change
     Commanding (Located Command)
   deriving stock (Eq, Show)
@@ -219,6 +232,7 @@ moves block = case block of
     approach <> descent <> NonEmpty.toList cut <> retract
   Clearing {approach, cleared, retract} -> approach <> NonEmpty.toList cleared <> retract
   Holing _ ms -> ms
+  Carved _ ms -> NonEmpty.toList ms
   Commanding _ -> []
 
 -- | The count of passes before each block; at the end of the list, the count of all passes. Each
@@ -239,6 +253,7 @@ passNumbers = go 0
       Clearing {} -> True
       Travelling {} -> False
       Holing _ _ -> False
+      Carved _ _ -> False
       Commanding _ -> False
 
 -- | The blocks of a toolpath, each with the tool in the spindle. The tool is Nothing before the
@@ -337,6 +352,8 @@ withoutCuts path = foldr seq () abridged `seq` path {blocks = abridged}
       Clearing {cleared} -> block {cleared = endsAndSlopes cleared}
       Travelling {} -> block
       Holing _ _ -> block
+      -- The proof asks for each of its moves.
+      Carved _ _ -> block
       Commanding _ -> block
     endsAndSlopes ms = case ms of
       first :| more

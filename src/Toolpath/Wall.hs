@@ -149,6 +149,7 @@ machiningOf b = case b of
       )
   Travelling {} -> Nothing
   Holing _ _ -> Nothing
+  Carved _ _ -> Nothing
   Commanding _ -> Nothing
   where
     sideOf milling = fromRight Nothing (leadingSide milling)

@@ -118,6 +118,8 @@ itemsOfBlock ::
 itemsOfBlock machine isFlat solids left@(along, clearing) visit = case block of
   Toolpath.Travelling _ stops _ -> (left, links pulse (RequiredLink.stopMoves begin stops))
   Toolpath.Holing drilling _ -> (left, map Single (holes drilling))
+  Toolpath.Carved (Located _ c) ms ->
+    (left, singles (slackWithin machine (Part.carvingTolerance c)) (NonEmpty.toList ms))
   Toolpath.Commanding _ -> (left, [])
   Toolpath.Cutting {Toolpath.job, Toolpath.sent = Just s} ->
     ((drop 1 along, clearing), singles (slackOf machine (value job)) (edgeMoves s))
@@ -339,10 +341,12 @@ singles slack = map single
 -- | Largest distance in mm, in the plane, of a motion from a linking move of a milling: the
 -- tolerance plus one pulse.
 slackOf :: Machine -> Milling -> Mm
-slackOf machine milling =
-  plus
-    (uncurry max (Part.deviationLimits (Part.tolerance milling)))
-    (Machine.planeResolution machine)
+slackOf machine = slackWithin machine . Part.tolerance
+
+-- | Largest distance in mm, in the plane, of a motion from its move: the tolerance plus one pulse.
+slackWithin :: Machine -> Part.Accuracy -> Mm
+slackWithin machine tolerance =
+  plus (uncurry max (Part.deviationLimits tolerance)) (Machine.planeResolution machine)
 
 -- | Group of the motions along a contour. The first motions may also belong to the approach, as
 -- long as they stay at the start of the cut. The last motions may also belong to the retract if

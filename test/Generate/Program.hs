@@ -113,6 +113,8 @@ softWords =
     "joggle",
     "radius",
     "cone",
+    "vbit",
+    "vcarve",
     "blade",
     "gear",
     "bevel1",
@@ -244,6 +246,7 @@ statement n = at (frequency ([(1, s) | s <- simple] <> [(3, s) | n > 0, s <- dee
         RestOf <$> expr n <*> expr n <*> some' 4 (setting n),
         Face <$> expr n <*> expr n <*> some' 4 (setting n),
         Engrave <$> lettering n <*> some' 4 (setting n),
+        Vcarve <$> expr n <*> some' 4 (setting n),
         Turn <$> expr n <*> at every <*> some' 4 (setting n),
         Repeat <$> at name <*> expr n <*> inside,
         When <$> expr n <*> inside <*> inside,
@@ -309,6 +312,7 @@ cutter n =
           ThreadMillCutter <$> expr n <*> expr n <*> some' 3 (at (bodySize n)),
           TurningCutter <$> expr n <*> maybe' (expr n),
           ConeCutter <$> expr n <*> expr n <*> expr n,
+          VBitCutter <$> expr n <*> expr n <*> expr n,
           BladeCutter <$> expr n <*> expr n
         ]
     )

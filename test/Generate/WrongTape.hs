@@ -265,6 +265,7 @@ isLink _ s = case Frame.role (made s) of
   Frame.Retracting _ -> True
   Frame.Linking -> True
   Frame.Drilling _ -> True
+  Frame.Carving _ -> True
   Frame.Cutting _ -> False
   Frame.Commanding -> False
 isAtFeed _ s = motionOf s /= Rapid

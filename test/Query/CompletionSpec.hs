@@ -122,7 +122,7 @@ words' = do
   it "offers machines, cutters and their words" $ do
     labels "part p\nmachine ^" `shouldSatisfy` all' ["lkp-01f", "n55", "iso6983"]
     labels "part p\ntool ^"
-      `shouldBe` ["mill", "drill", "tap", "threadmill", "turn", "cone", "blade"]
+      `shouldBe` ["mill", "drill", "tap", "threadmill", "turn", "cone", "vbit", "blade"]
     labels "part p\ntool mill(^" `shouldBe` ["diameter"]
     labels "part p\ntool cone(diameter 6, ^" `shouldBe` ["bevel"]
   it "offers units after a number" $ do

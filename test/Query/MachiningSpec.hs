@@ -67,6 +67,7 @@ isMachining = \case
   Cutting _ -> True
   Retracting _ -> True
   Drilling _ -> True
+  Carving _ -> True
   Linking -> False
   Commanding -> False
 
