@@ -41,7 +41,9 @@ spec = do
         <> Keyword.softStatements
         <> concatMap
           (concatMap Text.words . Keyword.settingsOf)
-          (["mill", "pocket", "rest", "face", "engrave", "turn", "drill"] <> HoleForm.words')
+          ( ["mill", "pocket", "rest", "face", "engrave", "vcarve", "turn", "drill"]
+              <> HoleForm.words'
+          )
     grammar = "editors/tree-sitter-part/grammar.js"
     colours = "editors/tree-sitter-part/queries/highlights.scm"
 

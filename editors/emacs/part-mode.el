@@ -77,7 +77,7 @@
     ("\\_<\\(?:part\\|let\\|param\\|table\\|curve\\|piece\\|contour\\)[ \t]+\\(\\(?:\\sw\\|\\s_\\)+\\)"
      1 font-lock-variable-name-face)
     ;; These words begin a line; elsewhere they are names.
-    ("^[ \t]*\\(pocket\\|face\\|work\\|program\\|safe\\|stock\\|avoid\\|contours\\|dwell\\|spot\\|ream\\|countersink\\|counterbore\\|bore\\|tap\\|thread\\)[ \t]+[(-]?\\(?:\\sw\\|\\s_\\)"
+    ("^[ \t]*\\(pocket\\|face\\|vcarve\\|work\\|program\\|safe\\|stock\\|avoid\\|contours\\|dwell\\|spot\\|ream\\|countersink\\|counterbore\\|bore\\|tap\\|thread\\)[ \t]+[(-]?\\(?:\\sw\\|\\s_\\)"
      1 font-lock-keyword-face)
     ("^[ \t]*\\(rest[ \t]+of\\)[ \t]" 1 font-lock-keyword-face)
     ("^[ \t]*\\(engrave\\)[ \t]+\"" 1 font-lock-keyword-face)
@@ -111,8 +111,10 @@
     ("\\_<\\(?:bore\\|tap\\|thread\\)[ \t]+at\\_>.*\\_<\\(pitch\\)\\_>" 1 font-lock-keyword-face)
     ("\\_<countersink[ \t]+at\\_>.*\\_<\\(angle\\)\\_>" 1 font-lock-keyword-face)
     ("\\_<chip[ \t]+\\(break\\)\\_>" 1 font-lock-keyword-face)
-    ("\\_<\\(cone\\|blade\\|tap\\|threadmill\\)(" 1 font-lock-keyword-face)
+    ("\\_<\\(cone\\|vbit\\|blade\\|tap\\|threadmill\\)(" 1 font-lock-keyword-face)
     ("(\\(diameter\\|nose\\)\\_>" 1 font-lock-keyword-face)
+    ("\\_<vbit(\\(angle\\)\\_>.*,[ \t]*\\(tip\\)\\_>.*,[ \t]*\\(diameter\\)\\_>"
+     (1 font-lock-keyword-face) (2 font-lock-keyword-face) (3 font-lock-keyword-face))
     (",[ \t]*\\(height\\|gear\\)\\_>" 1 font-lock-keyword-face)
     (",[ \t]*\\(flutes\\|stickout\\|holder\\|angle\\|pitch\\)[ \t]+[(-]?\\(?:\\sw\\|\\s_\\)" 1 font-lock-keyword-face)
     (",[ \t]*holder[ \t]\\(?:[^,()\n]\\|([^()\n]*)\\)*\\_<\\(height\\)[ \t]" 1 font-lock-keyword-face)

@@ -50,7 +50,7 @@ provide-module part %§
     # The other words that cannot be names
     add-highlighter shared/part/code/ regex \b(for|if|in|then|else|and|or|not|open|closed|cw|ccw|meet|near|smooth|tangent|fillet|chamfer|slow|allowance|bevel|outside|inside|left|right|on|within|first|last|approach|retract)\b 1:keyword
     # Words that begin a line and are names elsewhere
-    add-highlighter shared/part/code/ regex ^\h*(pocket|face|work|program|safe|stock|avoid|contours|dwell|spot|ream|countersink|counterbore|bore|tap|thread)\h+[(-]?\w 1:keyword
+    add-highlighter shared/part/code/ regex ^\h*(pocket|face|vcarve|work|program|safe|stock|avoid|contours|dwell|spot|ream|countersink|counterbore|bore|tap|thread)\h+[(-]?\w 1:keyword
     add-highlighter shared/part/code/ regex ^\h*(rest\h+of)\h 1:keyword
     add-highlighter shared/part/code/ regex ^\h*(engrave)\h 1:keyword
     add-highlighter shared/part/code/ regex \b(at)\b[^\n]*\b(height)\b[^\n]*\{ 1:keyword 2:keyword
@@ -83,8 +83,9 @@ provide-module part %§
     add-highlighter shared/part/code/ regex \.\.[^\n]*\b(by)\b 1:keyword
     add-highlighter shared/part/code/ regex \b(cipher|joggle)\b 1:keyword
     add-highlighter shared/part/code/ regex \bjoggle\b[^\n]*\b(to)\b[^\n]*\b(depth)\b[^\n]*\b(radius)\b 1:keyword 2:keyword 3:keyword
-    add-highlighter shared/part/code/ regex \b(cone|blade|tap|threadmill)\( 1:keyword
+    add-highlighter shared/part/code/ regex \b(cone|vbit|blade|tap|threadmill)\( 1:keyword
     add-highlighter shared/part/code/ regex \((diameter|nose)\b 1:keyword
+    add-highlighter shared/part/code/ regex \bvbit\((angle)\b[^\n]*,\h*(tip)\b[^\n]*,\h*(diameter)\b 1:keyword 2:keyword 3:keyword
     add-highlighter shared/part/code/ regex ,\h*(height|gear)\b 1:keyword
     add-highlighter shared/part/code/ regex ,\h*(flutes|stickout|holder|angle|pitch)\h+[(-]?\w 1:keyword
     add-highlighter shared/part/code/ regex ,\h*holder\h(?:[^,()\n]|\([^()\n]*\))*\b(height)\h 1:keyword

@@ -63,7 +63,7 @@ module.exports = grammar({
       $.part, $.units, $.machine, $.import, $.tool, $.feed, $.tolerance, $.clearance, $.from,
       $.work, $.program_number, $.safe, $.stock, $.avoid,
       $.let, $.param, $.table, $.curve, $.piece, $.contour, $.drawn_contour, $.drawn_contours, $.assert,
-      $.mill, $.turn, $.pocket, $.rest_of, $.face, $.engrave, $.drill, $.hole, $.rapid, $.move,
+      $.mill, $.turn, $.pocket, $.rest_of, $.face, $.engrave, $.vcarve, $.drill, $.hole, $.rapid, $.move,
       $.change, $.spindle, $.coolant, $.aux, $.program_stop, $.optional_stop, $.dwell,
       $.for, $.if, $.with,
     ),
@@ -175,6 +175,7 @@ module.exports = grammar({
       optional(seq('align', choice('left', 'centre', 'right'))),
       $.settings,
     ),
+    vcarve: $ => seq('vcarve', field('region', $._expression), $.settings),
     drill: $ => seq('drill', 'at', $._expression, 'depth', $._expression, optional($.settings)),
     hole: $ => seq(
       choice(
@@ -225,6 +226,7 @@ module.exports = grammar({
       $.thread_mill,
       $.turning_cutter,
       $.cone,
+      $.vbit,
       $.blade,
     ),
     upright_cutter: $ => seq(
@@ -258,6 +260,14 @@ module.exports = grammar({
       'diameter', $._expression, ',',
       'bevel', $._expression, ',',
       'height', $._expression,
+      ')',
+    ),
+    vbit: $ => seq(
+      'vbit',
+      '(',
+      'angle', $._expression, ',',
+      'tip', $._expression, ',',
+      'diameter', $._expression,
       ')',
     ),
     blade: $ => seq('blade', '(', 'diameter', $._expression, ',', 'gear', $._expression, ')'),

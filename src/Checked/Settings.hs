@@ -64,7 +64,7 @@ setting env statement (Located at s) = do
       d' <- len d
       most' <- traverse len most
       sequence_
-        [ Inference.mistake (ForeignSetting stepdown "step" statement ["depth"])
+        [ Inference.mistake (ForeignSetting stepdown "step" statement (Keyword.settingsOf statement))
           | statement == "vcarve",
             Just m <- [most],
             let stepdown = Region (end (region d)) (end (region m))

@@ -38,17 +38,9 @@ operation :: Transformation -> Operation -> Operation
 operation s o = case o of
   Mill (Located at m) -> Mill (Located at (milling m))
   Pocket (Located at p) ->
-    Pocket
-      ( Located
-          at
-          p
-            { wall = milling (wall p),
-              islands = map (image s) (islands p),
-              extent = extentOf (extent p)
-            }
-      )
-  Drill (Located at d) ->
-    Drill (Located at d {holes = fmap placed (holes d)})
+    let (wall', islands') = (milling (wall p), map (image s) (islands p))
+     in Pocket (Located at p {wall = wall', islands = islands', extent = extentOf (extent p)})
+  Drill (Located at d) -> Drill (Located at d {holes = fmap placed (holes d)})
   Carve (Located at c) -> Carve (Located at c {carvedAreas = fmap area (carvedAreas c)})
   Travel stops -> Travel (NonEmpty.map stop stops)
   Command c -> Command c

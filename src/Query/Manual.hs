@@ -227,6 +227,11 @@ clearing =
         ("angle", "Gives the direction of the passes over a surface.")
       ]
     <> under
+      "language.md#v-carving"
+      [ ("vcarve", "Carves a region with a pointed tool, deeper where the region is wider."),
+        ("vbit", "Is a V-bit: its angle from flank to flank, its tip, its diameter.")
+      ]
+    <> under
       "language.md#engraving"
       [ ("engrave", "Engraves a text with letters of single strokes."),
         ("direction", "Gives the direction of the line on which a text stands."),

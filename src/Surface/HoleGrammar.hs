@@ -44,30 +44,12 @@ cutter expr =
               *> parens
                 ( ThreadMillCutter
                     <$> measured "diameter"
-                      <*> further "pitch" threadForm
+                      <*> further expr "pitch" threadForm
                       <*> sizes size
                 )
           )
       <|> (keyword "turn" *> parens (TurningCutter <$> measured "nose" <*> Parsec.optional tip))
-      <|> ( keyword "cone"
-              *> parens
-                ( ConeCutter
-                    <$> measured "diameter"
-                      <*> further "bevel" coneForm
-                      <*> further "height" coneForm
-                )
-          )
-      <|> ( keyword "vbit"
-              *> parens
-                ( VBitCutter
-                    <$> measured "angle"
-                      <*> further "tip" bitForm
-                      <*> further "diameter" bitForm
-                )
-          )
-      <|> ( keyword "blade"
-              *> parens (BladeCutter <$> measured "diameter" <*> further "gear" bladeForm)
-          )
+      <|> leaningCutter expr
   where
     one kind make allowed =
       keyword kind *> parens (make <$> measured "diameter" <*> sizes allowed)
@@ -78,8 +60,22 @@ cutter expr =
         <|> (HolderCylinder <$> measured "holder" <*> Parsec.optional (measured "height"))
     measured measure = keyword measure *> expr
     tip = symbol "," *> measured "tip"
-    further measure form = (symbol "," <?> form) *> measured measure
+    threadForm = "the rest of threadmill(diameter 8 mm, pitch 1.5 mm)"
+
+-- | A cutter for surfaces that lean: @cone(…)@, @vbit(…)@, @blade(…)@.
+leaningCutter :: Parser Expr -> Parser Cutter_
+leaningCutter expr =
+  one "cone" (ConeCutter <$> measured "diameter" <*> also "bevel" coneForm <*> also "height" coneForm)
+    <|> one "vbit" (VBitCutter <$> measured "angle" <*> also "tip" bitForm <*> also "diameter" bitForm)
+    <|> one "blade" (BladeCutter <$> measured "diameter" <*> also "gear" bladeForm)
+  where
+    one kind made = keyword kind *> parens made
+    measured measure = keyword measure *> expr
+    also = further expr
     coneForm = "the rest of cone(diameter 20 mm, bevel 5 deg, height 30 mm)"
     bitForm = "the rest of vbit(angle 60 deg, tip 0.2 mm, diameter 6 mm)"
     bladeForm = "the rest of blade(diameter 20 mm, gear 70 mm)"
-    threadForm = "the rest of threadmill(diameter 8 mm, pitch 1.5 mm)"
+
+-- | A further size of a cutter that cannot be left out. @form@ shows what may follow.
+further :: Parser Expr -> Text -> String -> Parser Expr
+further expr measure form = (symbol "," <?> form) *> keyword measure *> expr

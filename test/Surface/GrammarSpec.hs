@@ -36,7 +36,7 @@ spec = do
           === []
     -- The bug: a rule that no sentence uses.
     it "every literal of the grammar occurs in a random sentence" $ do
-      texts <- generate (vectorOf 6000 (Grammar.sentence grammar))
+      texts <- generate (vectorOf 8000 (Grammar.sentence grammar))
       let used = concatMap Text.words texts
       filter (`notElem` used) (Grammar.literals grammar) `shouldBe` []
     -- The bug: a construct of the parser that the manual lacks.

@@ -12,7 +12,7 @@ syntax match partNumber /\<\d\+\(\.\d\+\)\?/
 syntax keyword partStatement part machine import tool feed tolerance clearance from let param table curve piece contour assert
 syntax keyword partStatement mill turn drill rapid move change spindle coolant aux with
 " Names as well, but for where a statement begins.
-syntax match partStatement /^\s*\zs\<\(pocket\|face\|work\|program\|safe\|stock\|avoid\|contours\|dwell\|spot\|ream\|countersink\|counterbore\|bore\|tap\|thread\)\ze\s\+[(-]\?\k/
+syntax match partStatement /^\s*\zs\<\(pocket\|face\|vcarve\|work\|program\|safe\|stock\|avoid\|contours\|dwell\|spot\|ream\|countersink\|counterbore\|bore\|tap\|thread\)\ze\s\+[(-]\?\k/
 syntax match partStatement /^\s*\zs\<rest\s\+of\ze\s/
 syntax match partStatement /^\s*\zs\<engrave\ze\s\+"/
 syntax match partStatement /\(^\s*engrave\s\+"[^"]*"\s\+\)\@<=at\>/
@@ -27,7 +27,8 @@ syntax match partStatement /\(^\s*\(stock\|avoid\)\s.*\<from\>.*\)\@<=\<to\>/
 syntax match partStatement /\(^\s*\(contours\?\|table\)\s.*\<from\s*".*\)\@<=\<\(layer\|id\|class\|unit\)\ze\s/
 syntax match partCutter /\(,\s*\)\@<=\(flutes\|stickout\|holder\|angle\|pitch\)\ze\s\+[(-]\?\k/
 syntax match partCutter /\(,\s*holder\s\([^,()]\|([^()]*)\)*\)\@<=\<height\ze\s/
-syntax match partCutter /\(\<turn(.*,\s*\)\@<=tip\>/
+syntax match partCutter /\(\<\(turn\|vbit\)(.*,\s*\)\@<=tip\>/
+syntax match partCutter /\(\<vbit(\)\@<=angle\>/
 syntax match partStatement /^\s*\zs\<units\ze\s\+\(mm\|in\)\>/
 syntax keyword partFunction region union difference offset_of outlines_of holes_of area_of centroid_of
 syntax keyword partFunction rectangle bar rounded slot polygon ellipse gear
@@ -45,7 +46,7 @@ syntax match partMilling /\(\<chip\s\+\)\@<=break\>/
 syntax match partStatement /\(^\s*\(spot\|ream\|countersink\|counterbore\|bore\|tap\|thread\)\s\+at\s.*\)\@<=\<\(depth\|pitch\|angle\)\>/
 syntax match partStatement /\(^\s*\(spot\|ream\|countersink\|counterbore\|bore\|tap\|thread\)\s\+\)\@<=at\>/
 syntax match partCutter /\<\(tap\|threadmill\)\ze(/
-syntax keyword partCutter cone blade diameter
+syntax keyword partCutter cone vbit blade diameter
 syntax keyword partFunction pi line true false polar intersection centre_of midpoint foot_of tangency point_on horizontal vertical
 syntax keyword partFunction parallel perpendicular circle concentric distance direction_of radius_of length_of x_of y_of spline
 syntax keyword partFunction closed_spline bezier bspline polyline parabola arcs closed_arcs fit sections rows_of points_of point_at_x point_along

@@ -12,7 +12,7 @@
 [
   "part" "units" "machine" "import" "tool" "feed" "tolerance" "clearance" "from"
   "let" "param" "table" "curve" "piece" "contour" "assert"
-  "mill" "turn" "pocket" "face" "engrave" "drill" "rapid" "move" "change" "spindle" "coolant" "aux" "with"
+  "mill" "turn" "pocket" "face" "engrave" "vcarve" "drill" "rapid" "move" "change" "spindle" "coolant" "aux" "with"
   "work" "program" "safe" "stock" "avoid" "contours" "stop" "optional" "dwell"
   "spot" "ream" "countersink" "counterbore" "bore" "tap" "thread"
 ] @keyword
@@ -36,7 +36,7 @@
   "approach" "retract" "depth" "lead" "out" "line" "arc" "allowance" "corners" "round" "sharp"
   "compensation" "compiler" "controller" "start" "plunge" "ramp" "helix" "pitch" "tabs" "tab" "width"
   "peck" "islands" "rest" "allowed" "angle" "of" "as"
-  "diameter" "nose" "cone" "blade" "height" "gear" "flutes" "stickout" "holder" "tip"
+  "diameter" "nose" "cone" "vbit" "blade" "height" "gear" "flutes" "stickout" "holder" "tip"
   "manual" "limit" "s" "chip" "break" "pitch" "angle" "hand" "threadmill"
   "direction" "around" "align" "centre"
 ] @keyword
