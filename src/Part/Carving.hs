@@ -15,7 +15,7 @@ import Data.List.NonEmpty (NonEmpty (..))
 import Geometry.Tolerance qualified as Tolerance
 import Part.CarvingError (CarvingMistake (..))
 import Part.CutterBody qualified as CutterBody
-import Part.Error (CutterStatement (CarveStatement), Error (..), ValueFact (..))
+import Part.Error (CutterStatement (CarveStatement), ValueFact (..))
 import Part.Evaluation (Eval)
 import Part.Evaluation qualified as Evaluation
 import Part.Expression qualified as Expression
@@ -33,6 +33,7 @@ import Part.Part
 import Part.Part qualified as Part
 import Part.PlaneRegion (PlaneRegion (..), RegionPart (..))
 import Part.PocketCheck qualified as PocketCheck
+import Part.PocketError (PocketMisfit (Meets))
 import Part.RegionBuiltin qualified as RegionBuiltin
 import Part.RegionError (RegionMistake (EmptyRegion))
 
@@ -86,10 +87,11 @@ checkDepth at deep tool =
 
 -- | Fails if contours of one area of a region touch. @e@ is the expression of the region.
 checkHoles :: Expr -> RegionPart -> Eval ()
-checkHoles e p = case PocketCheck.misfits Nothing (named (outer p)) (map named (holes p)) of
-  [] -> pure ()
-  found -> Evaluation.mistakes [Error (InPocket m) [] [] | m <- found]
+checkHoles e p =
+  for_ (take 1 [at | Meets _ _ _ _ _ at _ <- misfits]) $ \at ->
+    mistake (ContoursMeet (region e) at)
   where
+    misfits = PocketCheck.misfits Nothing (named (outer p)) (map named (holes p))
     named = PocketCheck.Named (region e)
 
 mistake :: CarvingMistake -> Eval a

@@ -11,6 +11,8 @@ import Base.Decimal qualified as Decimal
 import Base.Quantity (LengthUnit, Mm, Rad, degrees)
 import Base.Region (Region (..))
 import Data.Text qualified as Text
+import Geometry.Vec (Point)
+import Geometry.Vec qualified as Vec
 import Report.Report (Label (..), Report (..), at)
 
 -- | A fault of a V-carving or of a V-bit. The first field of every constructor is the region that
@@ -20,6 +22,8 @@ data CarvingMistake
     NothingDeep Region
   | -- | a depth that is larger than the height of the flank: the depth, and this height
     DeeperThanFlank Region Mm Mm
+  | -- | contours of one area that touch: a point that they have in common
+    ContoursMeet Region Point
   | -- | a V-bit with an angle that no flank has: the angle
     NoFlank Region Rad
   | -- | a V-bit that is not wider above its tip: its diameter, and the diameter of its tip with the
@@ -45,6 +49,11 @@ toReport unit fault = case fault of
               <> " high."
           ],
         hints = ["Give a smaller depth, or take a tool with a larger diameter."]
+      }
+  ContoursMeet region p ->
+    (at region "E0379" "contours of this region touch one another")
+      { message = ["They touch at " <> Vec.toText unit 4 p <> "."],
+        hints = ["Move one of them, or make the region larger or smaller with offset_of."]
       }
   NoFlank region angle ->
     (at region "E0398" ("a V-bit cannot have an angle of " <> inDegrees angle))
