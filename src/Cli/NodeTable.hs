@@ -63,7 +63,7 @@ nodes source punched Analysis {part, path} =
         <> CurveTable.fittings part
         <> concatMap contourTables (cutsOf path)
         <> [pocketText unit machine job pass cleared | (job, pass, cleared) <- clearingsOf path]
-        <> [carvingText unit machine c (NonEmpty.toList ms) | Carved c ms <- Toolpath.blocks path]
+        <> [carvingText unit machine c (NonEmpty.toList ms) | Carved c ms _ <- Toolpath.blocks path]
         <> holeTable unit (drillingsOf path)
         <> holeOrderTable unit (drillingsOf path)
         <> TabTable.tables path

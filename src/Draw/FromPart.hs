@@ -271,7 +271,7 @@ movesBetween block = case block of
   Clearing {approach, cleared, retract} ->
     approach <> filter (not . isCut) (NonEmpty.toList cleared) <> retract
   Holing _ moves -> moves
-  Carved _ moves -> filter (not . isCarving) (NonEmpty.toList moves)
+  Carved _ moves _ -> filter (not . isCarving) (NonEmpty.toList moves)
   Commanding _ -> []
 
 -- | Moves at feed that are no cuts, but whose lower end is not above the highest pass.
@@ -294,7 +294,7 @@ leadsOf path =
       Clearing {pocket = Located _ p, pass} -> found (Part.wall p) pass block
       Travelling {} -> Nothing
       Holing _ _ -> Nothing
-      Carved _ _ -> Nothing
+      Carved _ _ _ -> Nothing
       Commanding _ -> Nothing
     found milling pass block =
       Just (radius milling, Toolpath.atHeight pass, movesBetween block)
@@ -341,7 +341,7 @@ cutterBox block = case block of
     [ BoundingBox.inflate r (BoundingBox.ofPoints p [])
       | Part.Hole (Located _ p) _ r <- NonEmpty.toList (Part.holes d)
     ]
-  Carved _ _ -> []
+  Carved _ _ _ -> []
   Commanding _ -> []
   Cutting {job = Located _ milling, cut} -> sweptBy milling (NonEmpty.toList cut)
   Clearing {pocket = Located _ p, cleared} -> sweptBy (Part.wall p) (NonEmpty.toList cleared)
@@ -391,7 +391,7 @@ cutsOf isLast (tool, block) = case block of
   Travelling {} -> []
   Holing _ _ -> []
   Commanding _ -> []
-  Carved (Located _ c) moves ->
+  Carved (Located _ c) moves _ ->
     [ (cutAlong tool (Part.carvingTip c) (times (-1) (Part.carvingDepth c)) ms)
         { isOnContour = True,
           showsCutter = False

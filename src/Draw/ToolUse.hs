@@ -110,7 +110,7 @@ feedsOf block = case block of
   Cutting {cut} -> paced (NonEmpty.toList cut)
   Clearing {cleared} -> paced (filter (uncurry (==) . Toolpath.heights) (NonEmpty.toList cleared))
   Holing (Located _ d) _ -> [cutFeed (value (Part.drillFeed d))]
-  Carved (Located _ c) _ -> [cutFeed (value (Part.carvingFeed c))]
+  Carved (Located _ c) _ _ -> [cutFeed (value (Part.carvingFeed c))]
   Travelling {} -> []
   Commanding _ -> []
   where

@@ -112,7 +112,7 @@ motionsOf block = case block of
          ]
       <> links retract
   Holing _ ms -> cuts ms
-  Carved _ ms -> cuts (NonEmpty.toList ms)
+  Carved _ ms _ -> cuts (NonEmpty.toList ms)
   Commanding _ -> []
   where
     links = map (between LinkLayer) . moving
@@ -152,5 +152,5 @@ nodesOf isLast block = case block of
   Clearing {} -> []
   Travelling {} -> []
   Holing _ _ -> []
-  Carved _ _ -> []
+  Carved _ _ _ -> []
   Commanding _ -> []

@@ -119,7 +119,7 @@ atDepth path e = case e of
     depthOf block = case block of
       Toolpath.Cutting {Toolpath.job = Located _ milling} -> depthIn milling
       Toolpath.Clearing {Toolpath.pocket = Located _ pocket} -> depthIn (Part.wall pocket)
-      Toolpath.Carved (Located _ c) _ -> [Part.carvingDepthAt c]
+      Toolpath.Carved (Located _ c) _ _ -> [Part.carvingDepthAt c]
       _ -> []
     depthIn = maybeToList . Part.depthAt . Part.places
 
@@ -173,7 +173,7 @@ toleranceError machine block = case block of
   Toolpath.Clearing {Toolpath.pocket = Located _ p} -> tooLarge (Part.wall p)
   Toolpath.Travelling {} -> Nothing
   Toolpath.Holing _ _ -> Nothing
-  Toolpath.Carved _ _ -> Nothing
+  Toolpath.Carved _ _ _ -> Nothing
   Toolpath.Commanding _ -> Nothing
   where
     tooLarge job
@@ -206,7 +206,7 @@ contourErrors machine path = case Machine.mostContours (Machine.limits machine) 
         Just (Toolpath.number pass, region (Part.side (Part.wall (value pocket))))
       Toolpath.Travelling {} -> Nothing
       Toolpath.Holing _ _ -> Nothing
-      Toolpath.Carved _ _ -> Nothing
+      Toolpath.Carved _ _ _ -> Nothing
       Toolpath.Commanding _ -> Nothing
 
 -- Making the frames -------------------------------------------------------------------------------

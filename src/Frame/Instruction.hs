@@ -131,7 +131,7 @@ ofBlock machine blockNumber n walls b = case b of
   Toolpath.Travelling radius _ ms -> straightRuns Linking radius ms
   Toolpath.Holing d ms ->
     concat (zipWith (holing machine blockNumber d) (drop 1 (map Just ms) <> [Nothing]) ms)
-  Toolpath.Carved (Located _ c) ms -> map (carved blockNumber c) (NonEmpty.toList ms)
+  Toolpath.Carved (Located _ c) ms _ -> map (carved blockNumber c) (NonEmpty.toList ms)
   Toolpath.Commanding c -> [Words (region c) (Command.translated machine c)]
   Toolpath.Cutting
     { Toolpath.job = Located region' job,

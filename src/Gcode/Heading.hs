@@ -184,7 +184,7 @@ clearances = concatMap heightsOf . Toolpath.blocks
       Toolpath.Cutting {Toolpath.job = Located _ job} -> milling job
       Toolpath.Clearing {Toolpath.pocket = Located _ p} -> milling (Part.wall p)
       Toolpath.Holing (Located _ d) _ -> [Part.travelHeight d]
-      Toolpath.Carved (Located _ c) _ -> [Part.carvingTravel c]
+      Toolpath.Carved (Located _ c) _ _ -> [Part.carvingTravel c]
       Toolpath.Travelling {} -> []
       Toolpath.Commanding _ -> []
     milling job = maybe [] pure (Part.clearance job)

@@ -73,7 +73,7 @@ milled path =
         [region | Part.work job /= Part.Turned]
       Toolpath.Clearing {Toolpath.pocket = Located region _} -> [region]
       Toolpath.Holing (Located region _) _ -> [region]
-      Toolpath.Carved (Located region _) _ -> [region]
+      Toolpath.Carved (Located region _) _ _ -> [region]
       Toolpath.Travelling {} -> []
       Toolpath.Commanding _ -> []
 

@@ -104,7 +104,7 @@ cutOf block = case block of
   Toolpath.Cutting {Toolpath.job = Located region _} -> Just region
   Toolpath.Clearing {Toolpath.pocket = Located region _} -> Just region
   Toolpath.Holing (Located region _) _ -> Just region
-  Toolpath.Carved (Located region _) _ -> Just region
+  Toolpath.Carved (Located region _) _ _ -> Just region
   Toolpath.Travelling _ _ ms -> Toolpath.origin <$> find ((/= Part.Rapid) . Toolpath.pace) ms
   Toolpath.Commanding _ -> Nothing
 

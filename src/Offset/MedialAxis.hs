@@ -287,9 +287,12 @@ branchOf :: Double -> Followed -> (Double, Double, Bound) -> [Branch]
 branchOf tolerance f (a, b, bound') = case bound' of
   Other k | k < own f -> []
   Itself -> [Sloping (discAt a) (discAt a) :| []]
-  Limit | Just s <- levelArc f a b -> [Level s (most f) :| []]
+  _ | isLevel, Just s <- levelArc f first a b -> [Level s first :| []]
   _ -> [straight a (discAt a) b (discAt b)]
   where
+    first = discRadius (discAt a)
+    isLevel = all (\t -> abs (discRadius (discAt (a + t * (b - a))) - first) <= smallest) [0.25, 0.5, 1]
+    Mm smallest = Tolerance.smallestDisc
     discAt u =
       let (p, n) = contact (site f) u
           r = min (most f) (radiusOf f u bound' `orAt` radius (sample f u))
@@ -308,16 +311,16 @@ branchOf tolerance f (a, b, bound') = case bound' of
           Mm off = Vec.distance (Vec.interpolate t (discCentre x) (discCentre y)) c
        in max off (abs (discRadius x + t * (discRadius y - discRadius x) - r))
 
--- | The arc on which the centre of a disc of the largest radius moves along a piece of an arc or of
--- a corner; Nothing for a line.
-levelArc :: Followed -> Double -> Double -> Maybe Segment
-levelArc f a b = case site f of
+-- | The arc on which the centre of a disc of the radius @r@ moves along a piece of an arc or of a
+-- corner; Nothing for a line.
+levelArc :: Followed -> Double -> Double -> Double -> Maybe Segment
+levelArc f r a b = case site f of
   Side (Straight _ _) -> Nothing
   Side Arc {centre = o, sweep = Rad w} -> Just (arcAbout o (w * (b - a)))
   Corner p _ turn -> Just (arcAbout p (turn * (b - a)))
   where
     arcAbout o w =
       let (p, n) = contact (site f) a
-          begin = Vec.shift (Vec.scale (most f) n) p
-          stop = let (q, m) = contact (site f) b in Vec.shift (Vec.scale (most f) m) q
+          begin = Vec.shift (Vec.scale r n) p
+          stop = let (q, m) = contact (site f) b in Vec.shift (Vec.scale r m) q
        in if begin == stop && abs w <= pi then Straight begin stop else Arc begin stop o (Rad w)

@@ -232,7 +232,7 @@ movesOf path = concatMap ofBlock (ToolUse.blocksWithTools path)
       Commanding _ -> []
       Travelling _ _ moves -> map (linking tool True) moves
       Holing _ moves -> map (worked tool) moves
-      Carved _ moves -> map (worked tool) (NonEmpty.toList moves)
+      Carved _ moves _ -> map (worked tool) (NonEmpty.toList moves)
       Cutting {pass, approach, descent, cut, retract} ->
         let isLast = isFinal pass
          in map (linking tool isLast) (approach <> descent)

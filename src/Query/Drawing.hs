@@ -75,7 +75,7 @@ statementOf block = case block of
   Cutting {job} -> Just (Region.region job)
   Clearing {pocket} -> Just (Region.region pocket)
   Holing d _ -> Just (Region.region d)
-  Carved c _ -> Just (Region.region c)
+  Carved c _ _ -> Just (Region.region c)
   Travelling {} -> Nothing
   Commanding _ -> Nothing
 

@@ -102,7 +102,7 @@ ofBlock made number passNumber block = case block of
   Cutting {job = Located at _} -> Just (summed at 1 (ofPass . snd <$> made))
   Clearing {pocket = Located at _} -> Just (summed at 1 (ofPass . snd <$> made))
   Holing (Located at _) _ -> Just (summed at 0 (ofBlockFrames . snd <$> made))
-  Carved (Located at _) _ -> Just (summed at 1 (ofBlockFrames . snd <$> made))
+  Carved (Located at _) _ _ -> Just (summed at 1 (ofBlockFrames . snd <$> made))
   Travelling {} -> Nothing
   Commanding _ -> Nothing
   where

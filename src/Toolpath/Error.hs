@@ -30,6 +30,7 @@ import Geometry.Vec qualified as Vec
 import Part.Part (Contour (contourName), Element (..), Ends (..), MillingPlaces, Side (..))
 import Report.Fix qualified as Fix
 import Report.Report (Label (..), Report (..), at)
+import Toolpath.CarvingReport qualified as CarvingReport
 import Toolpath.CompensationReport (Unsupported (..))
 import Toolpath.CompensationReport qualified as CompensationReport
 import Toolpath.DescentReport (DescentFault)
@@ -41,6 +42,7 @@ import Toolpath.LinkingMoveError (LinkingMoveError)
 import Toolpath.LinkingMoveError qualified as LinkingMoveError
 import Toolpath.Tab (TabFault)
 import Toolpath.Tolerance qualified as Tolerance
+import Toolpath.Toolpath (CarvingRest)
 import Toolpath.WarningReport
 
 -- | Reasons why there is no toolpath. Each comment lists the fields of its constructor in order.
@@ -70,6 +72,11 @@ data Error
     CutsPart Region Segment Element Mm Intrusion Point (Maybe ContourBeginning)
   | -- | linking moves that cut into the part for one cause
     WrongLink LinkingMoveError
+  | -- | a V-carving whose tip fits nowhere: the statement, the radius of the tip
+    NowhereCarved Region Mm
+  | -- | a V-carving that leaves material because its tip is too wide: the statement, what it leaves,
+    -- the radius of the tip
+    CarvingLeaves Region CarvingRest Mm
   | -- | a hole that cuts into a contour
     HoleCuts HoleCut
   | -- | milling one contour cuts into another: the statement, the region of the element along which
@@ -263,6 +270,8 @@ toReport unit err = case err of
   WrongLink fault -> LinkingMoveError.toReport unit fault
   NoDescent fault -> DescentReport.toReport unit fault
   NoTab region long fault -> DescentReport.tabReport unit region long fault
+  NowhereCarved region tip -> CarvingReport.nowhere unit region tip
+  CarvingLeaves region rest tip -> CarvingReport.refused unit region rest tip
   HoleCuts cut -> HoleReport.toReport unit cut
   MillsItself region side element depth ends ->
     (at side "E0406" "on this contour the cutter cuts away what is to stand on one side of it")

@@ -198,7 +198,7 @@ blocksOf State {number, toolRadius, at} operation = case operation of
      in Right [Travelling toolRadius ends (LinkingMove.straightMoves at ends)]
   Command c -> Right [Commanding c]
   Drill d -> Right [Holing d (DrillMove.moves at d)]
-  Carve c -> (: []) . Carved c <$> CarvingPath.moves at c
+  Carve c -> (\(ms, rest) -> [Carved c ms rest]) <$> CarvingPath.moves at c
   Pocket job -> PocketMove.blocks number at job
   Mill (Located region given) -> do
     possible region given

@@ -30,10 +30,10 @@ overSolids solids blocks
       Travelling {} -> b
       Commanding _ -> b
       Holing d ms -> Holing d (raised cutter (Just (Part.travelHeight (value d))) ms)
-      Carved c (m :| more) ->
+      Carved c (m :| more) rest ->
         -- The first move leads to the first point.
         case raised cutter (Just (Part.carvingTravel (value c))) (m : more) of
-          m' : more' -> Carved c (m' :| more')
+          m' : more' -> Carved c (m' :| more') rest
           [] -> b
       Cutting {job, approach, retract, sent} ->
         let up = raised cutter (Part.clearance (value job))

@@ -11,6 +11,8 @@ module Toolpath.Tolerance
     alongTabs,
     arcIntrusion,
     wayShortened,
+    sameNode,
+    axisShare,
 
     -- * Cutter compensation
     controlMargin,
@@ -32,6 +34,14 @@ smallestCutter = Mm 0.05
 -- | The largest distance from a path, beyond the allowance, of the middle of a tab on it.
 alongTabs :: Mm
 alongTabs = Mm 0.01
+
+-- | The largest distance between ends of branches of a medial axis that are one node.
+sameNode :: Mm
+sameNode = Mm 1e-5
+
+-- | The share of the tolerance of a V-carving that its path may deviate from the medial axis.
+axisShare :: Double
+axisShare = 0.25
 
 -- | The largest depth that an arc of an approach, a retract or a lead may cut into the part. It
 -- allows for coordinates of the program that are rounded to a few thousandths of a millimetre.

@@ -5,6 +5,7 @@ module Toolpath.Toolpath
     Setup (..),
     noSetup,
     Block (..),
+    CarvingRest (..),
     Pass (..),
     Sent (..),
     Move (..),
@@ -135,10 +136,21 @@ data Block
       }
   | -- | the holes of a drilling statement
     Holing (Located Drilling) [Move]
-  | -- | the V-carving of a region
-    Carved (Located Carving) (NonEmpty Move)
+  | -- | the V-carving of a region, and what it leaves because its tip is too wide
+    Carved (Located Carving) (NonEmpty Move) (Maybe CarvingRest)
   | -- | a command to the machine, such as a tool change
     Commanding (Located Command)
+  deriving stock (Eq, Show)
+
+-- | Material that the tip of a V-carving leaves in corners and narrow places.
+data CarvingRest = CarvingRest
+  { -- | the count of the places
+    restCount :: Int,
+    -- | the largest thickness
+    thickest :: Mm,
+    -- | the point of the largest thickness
+    restAt :: Point
+  }
   deriving stock (Eq, Show)
 
 -- | One pass along a contour or in a pocket.
@@ -232,7 +244,7 @@ moves block = case block of
     approach <> descent <> NonEmpty.toList cut <> retract
   Clearing {approach, cleared, retract} -> approach <> NonEmpty.toList cleared <> retract
   Holing _ ms -> ms
-  Carved _ ms -> NonEmpty.toList ms
+  Carved _ ms _ -> NonEmpty.toList ms
   Commanding _ -> []
 
 -- | The count of passes before each block; at the end of the list, the count of all passes. Each
@@ -253,7 +265,7 @@ passNumbers = go 0
       Clearing {} -> True
       Travelling {} -> False
       Holing _ _ -> False
-      Carved _ _ -> False
+      Carved _ _ _ -> False
       Commanding _ -> False
 
 -- | The blocks of a toolpath, each with the tool in the spindle. The tool is Nothing before the
@@ -353,7 +365,7 @@ withoutCuts path = foldr seq () abridged `seq` path {blocks = abridged}
       Travelling {} -> block
       Holing _ _ -> block
       -- The proof asks for each of its moves.
-      Carved _ _ -> block
+      Carved _ _ _ -> block
       Commanding _ -> block
     endsAndSlopes ms = case ms of
       first :| more

@@ -30,15 +30,21 @@ import Part.CutFeed (SpindleRate (..))
 import Part.Part (Milling, Pace (..), Side (..), Work (..))
 import Part.Part qualified as Part
 import Toolpath.Error (Warning (..))
+import Toolpath.LinkingMove qualified as LinkingMove
 import Toolpath.Toolpath (Block (..), Toolpath)
 import Toolpath.Toolpath qualified as Toolpath
 
 -- | All warnings about a toolpath: first rapid moves through the part, then rapid moves into
 -- material that is not cleared or drilled yet, then tool changes after which the spindle is not
--- started again.
+-- started again, then V-carvings whose tip is too wide.
 warnings :: Toolpath -> [Warning]
 warnings path =
-  throughPart path <> intoContent path <> intoHoles path <> stoppedSpindles path
+  throughPart path <> intoContent path <> intoHoles path <> stoppedSpindles path <> wideTips
+  where
+    wideTips =
+      [ TipTooWide (LinkingMove.keyword 6 region) rest
+        | Carved (Located region _) _ (Just rest) <- Toolpath.blocks path
+      ]
 
 -- | A closed contour. @isMaterial@ is true if the part is inside it, and false if the part is
 -- outside.
@@ -106,7 +112,7 @@ intoContent path
           around cleared pass (approach <> descent) retract more
         Clearing {pass, approach, retract} -> around cleared pass approach retract more
         Holing _ _ -> go cleared more
-        Carved _ _ -> go cleared more
+        Carved _ _ _ -> go cleared more
         Commanding _ -> go cleared more
     around cleared pass approach retract more =
       let after = Map.insertWith min (Toolpath.number pass) (Toolpath.atHeight pass) cleared
@@ -159,7 +165,7 @@ intoHoles path =
       Cutting {approach, descent, retract} -> approach <> descent <> retract
       Clearing {approach, retract} -> approach <> retract
       Holing _ _ -> []
-      Carved _ _ -> []
+      Carved _ _ _ -> []
       Commanding _ -> []
     -- The hole @h@ is material at the height @z@ if no block before the block @n@ drills so deep.
     isSolid n p z h =

@@ -32,6 +32,8 @@ import Part.Part (Element (..), MillingPlaces, SpacePoint (..), Work (..))
 import Report.Fix qualified as Fix
 import Report.Report (Label (..), Report (..), ReportPlace (..), report)
 import Report.Report qualified as Report
+import Toolpath.CarvingReport qualified as CarvingReport
+import Toolpath.Toolpath (CarvingRest)
 
 -- | A cutter at work: the kind of work, the cutter's radius, the allowance that it leaves, and the
 -- regions of the program that a fix may change.
@@ -57,6 +59,8 @@ data Warning
   | -- | an operation that clears what a larger cutter has left, where that cutter has left nothing:
     -- the statement, and the statement of the larger cutter
     NothingLeft Region Region
+  | -- | a V-carving that leaves material because its tip is too wide: the statement, what it leaves
+    TipTooWide Region CarvingRest
   deriving stock (Eq, Show)
 
 -- | Rest material at a position that the cutter does not reach. The last field of 'InConcaveArc'
@@ -96,6 +100,7 @@ warningReport unit warning = case warning of
               [ "Take a smaller cutter afterwards, or leave rest allowed out to have this refused."
               ]
       }
+  TipTooWide region rest -> CarvingReport.allowed unit region rest
   RapidThroughPart region move (Located named contour) ->
     (report Report.Warning "W0402" (InSource region) "this rapid move goes through the part")
       { others = [Label named "inside this contour"],

@@ -371,7 +371,7 @@ statementOf facts planned = case blockOf facts planned of
   Just Toolpath.Cutting {Toolpath.job = Located region _} -> Just region
   Just Toolpath.Clearing {Toolpath.pocket = Located region _} -> Just region
   Just (Toolpath.Holing (Located region _) _) -> Just region
-  Just (Toolpath.Carved (Located region _) _) -> Just region
+  Just (Toolpath.Carved (Located region _) _ _) -> Just region
   _ -> Just (Frame.origin planned)
 
 -- | Part of a motion in which the tip is below a height, and the lowest height of the tip there.
@@ -481,7 +481,7 @@ lowTravel facts@Facts {subject, allowedHeight} m low top = do
       Toolpath.Cutting {Toolpath.job = Located _ j} -> Part.clearance j
       Toolpath.Clearing {Toolpath.pocket = Located _ p} -> Part.clearance (Part.wall p)
       Toolpath.Holing (Located _ d) _ -> Just (Part.travelHeight d)
-      Toolpath.Carved (Located _ c) _ -> Just (Part.carvingTravel c)
+      Toolpath.Carved (Located _ c) _ _ -> Just (Part.carvingTravel c)
       _ -> Nothing
 
 -- | Test that a motion goes straight up from the end of the motion before it, with the same cone.

@@ -118,7 +118,7 @@ itemsOfBlock ::
 itemsOfBlock machine isFlat solids left@(along, clearing) visit = case block of
   Toolpath.Travelling _ stops _ -> (left, links pulse (RequiredLink.stopMoves begin stops))
   Toolpath.Holing drilling _ -> (left, map Single (holes drilling))
-  Toolpath.Carved (Located _ c) ms ->
+  Toolpath.Carved (Located _ c) ms _ ->
     (left, singles (slackWithin machine (Part.carvingTolerance c)) (NonEmpty.toList ms))
   Toolpath.Commanding _ -> (left, [])
   Toolpath.Cutting {Toolpath.job, Toolpath.sent = Just s} ->

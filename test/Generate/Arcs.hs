@@ -48,7 +48,7 @@ quantise machine path =
     block n b = case b of
       Toolpath.Travelling r _ ms -> map (Linking,r,) ms
       Toolpath.Holing (Located _ d) ms -> map (Drilling n,Part.drillRadius d,) ms
-      Toolpath.Carved (Located _ c) ms ->
+      Toolpath.Carved (Located _ c) ms _ ->
         map (Carving n,Part.carvingRadius c,) (NonEmpty.toList ms)
       Toolpath.Commanding _ -> []
       Toolpath.Clearing

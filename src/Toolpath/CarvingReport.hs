@@ -1,0 +1,57 @@
+{-# OPTIONS_GHC -O0 #-}
+
+-- | Reports on material that the tip of a V-carving leaves because it is too wide.
+module Toolpath.CarvingReport
+  ( nowhere,
+    refused,
+    allowed,
+  )
+where
+
+import Base.Decimal qualified as Decimal
+import Base.Quantity (LengthUnit, Mm (..), times)
+import Base.Region (Region)
+import Data.Text (Text)
+import Geometry.Vec qualified as Vec
+import Report.Report (Report (..), ReportPlace (InSource), at, report)
+import Report.Report qualified as Report
+import Toolpath.Toolpath (CarvingRest (..))
+
+-- | The report that a tip of some radius fits nowhere into a region.
+nowhere :: LengthUnit -> Region -> Mm -> Report
+nowhere unit region tip =
+  (at region "E0427" "the tip of the tool fits nowhere into this region")
+    { message = ["The tip is " <> Decimal.inUnit unit (times 2 tip) <> " wide."],
+      hints = ["Take a tool with a smaller tip."]
+    }
+
+-- | The report that a tip leaves material where the program does not allow it.
+refused :: LengthUnit -> Region -> CarvingRest -> Mm -> Report
+refused unit region rest tip =
+  (at region "E0427" ("the tip leaves material at " <> places rest))
+    { message =
+        [ "The tip is " <> Decimal.inUnit unit (times 2 tip) <> " wide. " <> thickestText unit rest
+        ],
+      hints = ["Take a tool with a smaller tip, or write rest allowed in the braces."]
+    }
+
+-- | The warning that a tip leaves material where the program allows it.
+allowed :: LengthUnit -> Region -> CarvingRest -> Report
+allowed unit region rest =
+  (report Report.Warning "W0405" (InSource region) ("the tip leaves material at " <> places rest))
+    { message = [thickestText unit rest],
+      hints = ["Take a tool with a smaller tip, or leave rest allowed out to have this refused."]
+    }
+
+places :: CarvingRest -> Text
+places rest
+  | restCount rest == 1 = "one place"
+  | otherwise = Decimal.whole (restCount rest) <> " places"
+
+thickestText :: LengthUnit -> CarvingRest -> Text
+thickestText unit rest =
+  "It is thickest at "
+    <> Vec.toText unit 3 (restAt rest)
+    <> ": "
+    <> Decimal.inUnit unit (thickest rest)
+    <> "."
