@@ -52,6 +52,7 @@ import Part.Part (SpacePoint (..))
 import Part.Part qualified as Part
 import Toolpath.Toolpath (Toolpath)
 import Toolpath.Toolpath qualified as Toolpath
+import Verify.CarvingCheck qualified as CarvingCheck
 import Verify.Collision qualified as Collision
 import Verify.ContourFeed qualified as ContourFeed
 import Verify.Deviation (MillingPass (..))
@@ -239,6 +240,13 @@ otherFindings subject@ProofSubject {machine, path, program, frames} passes =
   pocketOrder subject
     <> [OffPlane n | Subject.isFlat subject, Just n <- [TapeSummary.firstRisen (summary subject)]]
     <> HoleCheck.missingHoles machine path (motions subject)
+    <> CarvingCheck.carvingFindings
+      machine
+      path
+      program
+      (Subject.isAligned subject)
+      (map fst . SpindleCutter.cuttersOf subject . number)
+      (motions subject)
     <> take 1 foreign'
     <> Collision.collisions subject (Subject.toolIn subject passes)
     <> feedFindings subject passes

@@ -136,6 +136,11 @@ data Finding
     TurnsAxis Int RotaryAxis
   | -- | A hole is not drilled to its depth: the region of the hole, its centre.
     HoleMissing Region Point
+  | -- | The cone of a V-carving cuts beyond the edge of its area: the frame, the position of the
+    -- centre, how far beyond the edge, the statement.
+    CarvesBeyond Int Point Mm Region
+  | -- | A V-carving leaves material at an edge of its area: the statement, a point of the edge.
+    EdgeNotCarved Region Point
   | -- | A frame cuts below the top of the part where the program does not cut, or deeper than the
     -- program does: the frame, the position of the cutter's centre.
     CutsElsewhere Int Point
@@ -177,6 +182,8 @@ tapeOrder finding = case finding of
   OffPlane n -> (n, 4)
   TurnsAxis n _ -> (n, 4)
   HoleMissing _ _ -> (0, 4)
+  CarvesBeyond n _ _ _ -> (n, 0)
+  EdgeNotCarved _ _ -> (0, 4)
   CutsElsewhere n _ -> (n, 4)
   NotAsked n _ -> (n, 4)
   MoveMissing _ _ -> (0, 4)
@@ -203,6 +210,8 @@ isOffContour finding = case finding of
   OffPlane {} -> False
   TurnsAxis {} -> False
   HoleMissing {} -> False
+  CarvesBeyond {} -> False
+  EdgeNotCarved {} -> False
   CutsElsewhere {} -> False
   NotAsked {} -> False
   MoveMissing {} -> False
@@ -341,6 +350,23 @@ toReport unit machine finding = case finding of
             \the part or the head."
           ]
       }
+  CarvesBeyond n p far region ->
+    ( wrong
+        "E0747"
+        InFile
+        (frameWord n <> " carves beyond the edge of the region")
+    )
+      { others = [Label region "this carving"],
+        message =
+          [ "At " <> Vec.toText unit 3 p <> " its cone goes " <> Decimal.inUnit unit far
+              <> " beyond the edge."
+          ]
+      }
+  EdgeNotCarved region p ->
+    wrong
+      "E0748"
+      (InSource region)
+      ("the tape does not carve the edge of this region at " <> Vec.toText unit 3 p)
   HoleMissing region p ->
     wrong
       "E0710"

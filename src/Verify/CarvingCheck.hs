@@ -1,0 +1,233 @@
+-- | V-carvings on the tape: the cone may not leave the area at the top of the part, and it has to
+-- carve the edges of the area.
+--
+-- A motion cuts, at the top of the part, a disc about each position of its centre. The radius of the
+-- disc grows evenly with the depth. So on a straight motion the least distance of the disc from a
+-- point is at an end of the motion, or where the derivative of its distance vanishes. This has a
+-- closed form.
+module Verify.CarvingCheck
+  ( carvingFindings,
+  )
+where
+
+import Base.Quantity (Mm (..), Rad (..))
+import Base.Region (Located (..), Region)
+import Data.IntMap.Strict qualified as IntMap
+import Data.List (foldl')
+import Data.List.NonEmpty (NonEmpty (..))
+import Data.List.NonEmpty qualified as NonEmpty
+import Frame.Frame (FrameProgram)
+import Frame.Frame qualified as Frame
+import Geometry.Distance qualified as Distance
+import Geometry.Index.BoundingBox (BoundingBox (..))
+import Geometry.Index.BoundingBox qualified as BoundingBox
+import Geometry.Index.BoxTree (BoxTree)
+import Geometry.Index.BoxTree qualified as BoxTree
+import Geometry.Polyarc qualified as Polyarc
+import Geometry.Segment (Segment (..))
+import Geometry.Segment qualified as Segment
+import Geometry.Vec (Point, Vec)
+import Geometry.Vec qualified as Vec
+import Geometry.WindingNumber qualified as WindingNumber
+import Machine.Machine (Machine)
+import Machine.Machine qualified as Machine
+import Part.Part (Carving)
+import Part.Part qualified as Part
+import Toolpath.Toolpath (Toolpath)
+import Toolpath.Toolpath qualified as Toolpath
+import Verify.Motion (CutterMotion (number, segment))
+import Verify.Motion qualified as Motion
+import Verify.Proof (Finding (CarvesBeyond, EdgeNotCarved))
+
+-- | A V-carving that is compared with the tape.
+data Carved = Carved
+  { statement :: Region,
+    carving :: Carving,
+    -- | the segments of each area, with the area on their left
+    areas :: [NonEmpty Segment],
+    -- | all segments
+    edges :: BoxTree Segment,
+    -- | the deviation in mm that is allowed at the top of the part
+    allowed :: Double
+  }
+
+-- | Findings for the V-carvings of a program. @isAligned@ is true if each frame of the tape ends
+-- where the planned frame of the same number does; the planned frames then say which motions carve.
+-- Otherwise these are all motions below the top of the part, near the area, with the same tool.
+-- @toolsIn@ are the indices of the tools that may be in the spindle.
+carvingFindings ::
+  Machine ->
+  Toolpath ->
+  FrameProgram ->
+  Bool ->
+  (CutterMotion -> [Int]) ->
+  [CutterMotion] ->
+  [Finding]
+carvingFindings machine path program isAligned toolsIn motions =
+  concat
+    [ findingsOf (carvedOf machine region c) (filter isLow (ofBlock n tool c))
+      | (n, tool, Toolpath.Carved (Located region c) _ _) <-
+          zip3 [0 ..] (Toolpath.toolIndices blocks) blocks
+    ]
+  where
+    blocks = Toolpath.blocks path
+    isLow m = uncurry min (Motion.heights m) < Mm 0
+    ofBlock n tool c
+      | isAligned = [m | m <- motions, IntMap.lookup (number m) roles == Just (Frame.Carving n)]
+      | otherwise = [m | m <- motions, tool `elem` toolsIn m, isNear c m]
+    roles = IntMap.fromList (zip [1 ..] (map Frame.role (Frame.plannedFrames program)))
+    isNear c m = BoundingBox.meets (Motion.box m) (boxOf c)
+    boxOf c =
+      foldr1 BoundingBox.union $
+        fmap (foldr1 BoundingBox.union . fmap BoundingBox.ofSegment . segmentsOf) (Part.carvedAreas c)
+
+segmentsOf :: (Part.Contour, [Part.Contour]) -> NonEmpty Segment
+segmentsOf (outline, holes) =
+  let first :| more = Polyarc.segments (Part.polyarcOf outline)
+   in first :| (more <> concatMap (NonEmpty.toList . Polyarc.segments . Part.polyarcOf) holes)
+
+carvedOf :: Machine -> Region -> Carving -> Carved
+carvedOf machine statement carving =
+  Carved
+    { statement,
+      carving,
+      areas,
+      edges = BoxTree.index BoundingBox.ofSegment (concatMap NonEmpty.toList areas),
+      allowed = most + pulse + pulseZ * slope carving
+    }
+  where
+    areas = map segmentsOf (NonEmpty.toList (Part.carvedAreas carving))
+    Mm most = uncurry max (Part.deviationLimits (Part.carvingTolerance carving))
+    Mm pulse = Machine.planeResolution machine
+    Mm pulseZ = Machine.resolutionOf machine Machine.Z
+
+-- | The radius by which the cone grows for each mm of height.
+slope :: Carving -> Double
+slope c = let Rad half = Part.halfAngle c in tan half
+
+-- | The radius in mm of the disc that a tip at some height cuts at the top of the part; negative if
+-- it does not reach down to there.
+radiusAt :: Carving -> Mm -> Double
+radiusAt c (Mm z)
+  | z > 0 = -(z * slope c)
+  | otherwise = let Mm tip = Part.carvingTip c in tip - z * slope c
+
+findingsOf :: Carved -> [CutterMotion] -> [Finding]
+findingsOf carved ms =
+  take 1 [CarvesBeyond (number m) p (Mm far) (statement carved) | m <- ms, Just (p, far) <- [beyond carved m]]
+    <> take 1 [EdgeNotCarved (statement carved) p | p <- uncarved carved ms]
+
+-- The cone ----------------------------------------------------------------------------------------
+
+-- | A point beyond the edges of the area to which the cone of a motion cuts, and the distance from
+-- there to the edge, if it is more than is allowed.
+beyond :: Carved -> CutterMotion -> Maybe (Point, Double)
+beyond carved m
+  | far > allowed carved = Just (p, far)
+  | otherwise = case filter isOutside ends of
+    (q, r) : _ -> Just (q, r)
+    [] -> Nothing
+  where
+    c = carving carved
+    (from, to) = Motion.heights m
+    (r0, r1) = (radiusAt c from, radiusAt c to)
+    paths = Motion.pathList m
+    ends = [(Segment.start (segment m), r0), (Segment.end (segment m), r1)]
+    isOutside (q, r) = r > allowed carved && all (\ss -> WindingNumber.about q ss /= 1) (areas carved)
+    near path = BoxTree.within (BoundingBox.inflate (Mm (max 0 (max r0 r1))) (BoundingBox.ofSegment path)) (edges carved)
+    (far, p) =
+      foldl'
+        (\a b -> if fst b > fst a then b else a)
+        (0, Segment.start (segment m))
+        [overlap (path, r0, r1) e | path <- paths, e <- near path]
+
+-- | The largest amount by which the discs along a path go beyond an edge, and the centre of the disc
+-- that does. The radius changes evenly along the path.
+overlap :: (Segment, Double, Double) -> Segment -> (Double, Point)
+overlap (path, r0, r1) edge = case path of
+  Straight a b -> maximum' [over t a b | t <- 0 : 1 : concatMap (stationary a b) centres]
+  Arc {} ->
+    let Distance.ClosestPoint {Distance.distance = Mm d, Distance.nearestPoint = q} = Distance.segments path edge
+     in (max r0 r1 - d, q)
+  where
+    maximum' = foldr1 (\x y -> if fst x >= fst y then x else y)
+    over t a b =
+      let q = Vec.interpolate t a b
+          Mm d = Distance.toPoint q edge
+       in (r0 + t * (r1 - r0) - d, q)
+    centres = case edge of
+      Straight x y -> [x, y]
+      Arc {start = x, end = y, centre = o} -> [x, y, o]
+    -- The distance of a point x from the line changes like the radius where the angle between the
+    -- line and the direction to x has the cosine (r1 - r0) / length.
+    stationary a b x
+      | l <= 0 || abs k >= 1 = []
+      | otherwise =
+        [ t
+          | side <- [-1, 1],
+            let t = (along + side * abs across * k / sqrt (1 - k * k)) / l,
+            t > 0,
+            t < 1
+        ]
+      where
+        Mm l = Vec.distance a b
+        u = Vec.unit (Vec.to a b)
+        k = (r1 - r0) / l
+        along = Vec.dot u (Vec.to a x)
+        across = Vec.cross u (Vec.to a x)
+
+-- The edges ---------------------------------------------------------------------------------------
+
+-- | Points of the edges at which the largest disc that the tool can cut there is not cut.
+uncarved :: Carved -> [CutterMotion] -> [Point]
+uncarved carved ms =
+  [ p
+    | ss <- areas carved,
+      s <- NonEmpty.toList ss,
+      u <- [0.02, 0.25, 0.5, 0.75, 0.98],
+      let p = Segment.at u s
+          (centre, r) = largest carved p (Vec.left (Segment.directionAt u s)),
+      r >= tip,
+      not (any (isCut centre r) (near centre))
+  ]
+  where
+    Mm tip = Part.carvingTip (carving carved)
+    index = BoxTree.index Motion.box ms
+    slack = 2 * allowed carved
+    near p = BoxTree.within (BoundingBox.inflate (Mm slack) (BoundingBox.ofPoints p [])) index
+    isCut centre r m = any (isAlong centre r m) (Motion.pathList m)
+    isAlong centre r m path =
+      let t = Distance.nearestFraction centre path
+          (from, to) = Motion.heights m
+          (r0, r1) = (radiusAt (carving carved) from, radiusAt (carving carved) to)
+          Mm d = Vec.distance centre (Segment.at t path)
+       in d + abs (r0 + t * (r1 - r0) - r) <= slack
+
+-- | The largest disc in the area, up to the radius of the cone at the largest depth, that touches
+-- the edge at the point @p@ with the unit normal @n@: its centre and its radius. A disc that is too
+-- large is replaced by the one that touches the edge at its nearest point, until none is nearer
+-- (Ma, Bae and Choi, "3D medial axis point approximation using nearest neighbors and the normal
+-- field").
+largest :: Carved -> Point -> Vec -> (Point, Double)
+largest carved p n = go (100 :: Int) widest
+  where
+    Mm tip = Part.carvingTip (carving carved)
+    Mm deep = Part.carvingDepth (carving carved)
+    widest = tip + deep * slope (carving carved)
+    go steps r
+      | steps == 0 || r <= 0 = (c, max 0 r)
+      | otherwise = case nearestWithin c (r - within) of
+        Nothing -> (c, r)
+        Just q ->
+          let d = Vec.to p q
+              under = 2 * Vec.dot n d
+           in if under <= 0 then (p, 0) else go (steps - 1) (min (r - within) (Vec.dot d d / under))
+      where
+        c = Vec.shift (Vec.scale r n) p
+    within = 0.01 * allowed carved
+    nearestWithin c r =
+      let box = BoundingBox (Vec.x c - r) (Vec.y c - r) (Vec.x c + r) (Vec.y c + r)
+          found = [(d, q) | e <- BoxTree.within box (edges carved), let (Mm d, q) = Distance.nearest c e, d < r]
+       in case found of
+            [] -> Nothing
+            first : more -> Just (snd (foldl' (\a b -> if fst b < fst a then b else a) first more))
