@@ -53,8 +53,8 @@ reportRepeated (upToHere, Located at s) =
 setting :: TypingEnvironment -> Text -> Surface.Setting -> Infer (Deferred (Settings -> Settings))
 setting env statement (Located at s) = do
   unless
-    (keyword s `elem` "" : Keyword.settingsOf statement)
-    (Inference.mistake (ForeignSetting at (keyword s) statement (Keyword.settingsOf statement)))
+    (keyword s `elem` "" : own)
+    (Inference.mistake (ForeignSetting at (keyword s) statement own))
   case s of
     Surface.Approach to ->
       (\ps sol o -> o {approach = approach o <> ps sol}) <$> stops env to
@@ -64,7 +64,7 @@ setting env statement (Located at s) = do
       d' <- len d
       most' <- traverse len most
       sequence_
-        [ Inference.mistake (ForeignSetting stepdown "step" statement (Keyword.settingsOf statement))
+        [ Inference.mistake (ForeignSetting stepdown "step" statement own)
           | statement == "vcarve",
             Just m <- [most],
             let stepdown = Region (end (region d)) (end (region m))
@@ -109,6 +109,7 @@ setting env statement (Located at s) = do
     Surface.Angle e -> (\e' sol o -> o {passAngle = Just (e' sol)}) <$> expect env Type.angle e
     Surface.BrokenSetting -> (\_ o -> o) <$ Inference.taint
   where
+    own = Keyword.settingsOf statement
     len = expect env Type.len
     descentBy = fmap (\d sol o -> o {descent = Just (Located at (d sol))})
 

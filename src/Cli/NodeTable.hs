@@ -350,7 +350,10 @@ summary unit punched path =
     measured x = [fixed3 unit x, Decimal.unitText unit]
     everything = concatMap Toolpath.moves (Toolpath.blocks path)
     cutting =
-      concatMap (\(_, _, _, cut) -> NonEmpty.toList cut) (cutsOf path)
+      filter
+        ((/= Part.Rapid) . Toolpath.pace)
+        (concat [NonEmpty.toList ms | Carved _ ms <- Toolpath.blocks path])
+        <> concatMap (\(_, _, _, cut) -> NonEmpty.toList cut) (cutsOf path)
         <> concatMap (\(_, _, cleared) -> cleared) (clearingsOf path)
     lengthOf = total . map moveLength
 

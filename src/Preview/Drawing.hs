@@ -161,7 +161,10 @@ toolEntry tool =
     ]
   where
     cutter = ToolUse.cutter tool
-    Mm radius = Part.cutterRadius cutter
+    -- The path of a V-bit is as wide as its tip, and wider above.
+    Mm radius = case Part.kind cutter of
+      Part.VBitCutter -> Part.tipRadius cutter
+      _ -> Part.cutterRadius cutter
 
 kindName :: Part.CutterKind -> Text
 kindName kind = case kind of

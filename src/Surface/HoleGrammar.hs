@@ -65,16 +65,16 @@ cutter expr =
 -- | A cutter for surfaces that lean: @cone(…)@, @vbit(…)@, @blade(…)@.
 leaningCutter :: Parser Expr -> Parser Cutter_
 leaningCutter expr =
-  one "cone" (ConeCutter <$> measured "diameter" <*> also "bevel" coneForm <*> also "height" coneForm)
-    <|> one "vbit" (VBitCutter <$> measured "angle" <*> also "tip" bitForm <*> also "diameter" bitForm)
-    <|> one "blade" (BladeCutter <$> measured "diameter" <*> also "gear" bladeForm)
+  one "cone" (ConeCutter <$> measured "diameter" <*> also "bevel" cone <*> also "height" cone)
+    <|> one "vbit" (VBitCutter <$> measured "angle" <*> also "tip" bit <*> also "diameter" bit)
+    <|> one "blade" (BladeCutter <$> measured "diameter" <*> also "gear" blade)
   where
     one kind made = keyword kind *> parens made
     measured measure = keyword measure *> expr
     also = further expr
-    coneForm = "the rest of cone(diameter 20 mm, bevel 5 deg, height 30 mm)"
-    bitForm = "the rest of vbit(angle 60 deg, tip 0.2 mm, diameter 6 mm)"
-    bladeForm = "the rest of blade(diameter 20 mm, gear 70 mm)"
+    cone = "the rest of cone(diameter 20 mm, bevel 5 deg, height 30 mm)"
+    bit = "the rest of vbit(angle 60 deg, tip 0.2 mm, diameter 6 mm)"
+    blade = "the rest of blade(diameter 20 mm, gear 70 mm)"
 
 -- | A further size of a cutter that cannot be left out. @form@ shows what may follow.
 further :: Parser Expr -> Text -> String -> Parser Expr

@@ -62,16 +62,22 @@ samplesOf m =
   where
     (from, to) = Motion.heights m
 
--- | Largest chord error that any milling or pocket statement of the toolpath allows; 0 if there is
--- no such statement.
+-- | Largest chord error that any milling, pocket or carving statement of the toolpath allows; 0 if
+-- there is no such statement.
 largestTolerance :: Toolpath -> Mm
 largestTolerance path =
   maximum
     ( Mm 0 :
-        [ uncurry max (Part.deviationLimits (Part.tolerance m))
-          | m <- concatMap millingOf (Toolpath.blocks path)
+        [ uncurry max (Part.deviationLimits t)
+          | b <- Toolpath.blocks path,
+            t <- map Part.tolerance (millingOf b) <> carvingTolerances b
         ]
     )
+
+carvingTolerances :: Block -> [Part.Accuracy]
+carvingTolerances block = case block of
+  Toolpath.Carved (Located _ c) _ -> [Part.carvingTolerance c]
+  _ -> []
 
 -- | Milling of a block that cuts along a contour or clears a pocket; empty for any other block.
 millingOf :: Block -> [Milling]
