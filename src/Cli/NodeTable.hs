@@ -352,7 +352,7 @@ summary unit punched path =
     cutting =
       filter
         ((/= Part.Rapid) . Toolpath.pace)
-        (concat [NonEmpty.toList ms | Carved _ ms <- Toolpath.blocks path])
+        (concat [NonEmpty.toList ms | Carved _ ms _ <- Toolpath.blocks path])
         <> concatMap (\(_, _, _, cut) -> NonEmpty.toList cut) (cutsOf path)
         <> concatMap (\(_, _, cleared) -> cleared) (clearingsOf path)
     lengthOf = total . map moveLength

@@ -178,19 +178,29 @@ overlap (path, r0, r1) edge = case path of
 
 -- The edges ---------------------------------------------------------------------------------------
 
+-- | The largest distance in mm between points of an edge at which the proof looks for the disc that
+-- carves it.
+sampleStep :: Mm
+sampleStep = Mm 0.5
+
 -- | Points of the edges at which the largest disc that the tool can cut there is not cut.
 uncarved :: Carved -> [CutterMotion] -> [Point]
 uncarved carved ms =
   [ p
     | ss <- areas carved,
       s <- NonEmpty.toList ss,
-      u <- [0.02, 0.25, 0.5, 0.75, 0.98],
+      u <- sampled s,
       let p = Segment.at u s
           (centre, r) = largest carved p (Vec.left (Segment.directionAt u s)),
       r >= tip,
       not (any (isCut centre r) (near centre))
   ]
   where
+    sampled s =
+      let Mm long = Segment.length s
+          Mm step = sampleStep
+          count = max 4 (ceiling (long / step)) :: Int
+       in [(fromIntegral k + 0.5) / fromIntegral count | k <- [0 .. count - 1]]
     Mm tip = Part.carvingTip (carving carved)
     index = BoxTree.index Motion.box ms
     slack = 2 * allowed carved

@@ -76,7 +76,7 @@ largestTolerance path =
 
 carvingTolerances :: Block -> [Part.Accuracy]
 carvingTolerances block = case block of
-  Toolpath.Carved (Located _ c) _ -> [Part.carvingTolerance c]
+  Toolpath.Carved (Located _ c) _ _ -> [Part.carvingTolerance c]
   _ -> []
 
 -- | Milling of a block that cuts along a contour or clears a pocket; empty for any other block.

@@ -1,0 +1,132 @@
+-- | Laws of the proof of V-carvings: the tapes of random areas are proven, and those that carve
+-- deeper or less deep are refused.
+module Verify.CarvingCheckSpec
+  ( spec,
+  )
+where
+
+import Base.PulseVector (Pulses3 (..))
+import Base.Quantity (LengthUnit (Millimetres), Pulses (..))
+import Base.Result qualified as Result
+import CaseCount (askedCount)
+import Compile (Analysis (Analysis))
+import Compile qualified
+import Data.Maybe (fromMaybe)
+import Data.Text (Text)
+import Data.Text qualified as Text
+import Frame.Frame (Frame (..), FrameMotion (Rapid), FrameProgram, PlannedFrame (..), Role (..))
+import Frame.Frame qualified as Frame
+import Frame.FromToolpath qualified as FromToolpath
+import Machines qualified
+import Numeric (showFFloat)
+import Project.LoadedProgram qualified as LoadedProgram
+import Project.Target qualified as Target
+import Report.Report qualified as Report
+import Test.Hspec
+import Test.QuickCheck
+import Toolpath.Toolpath (Toolpath)
+import Verify.FromTape qualified as Verify
+import Verify.Proof qualified as Proof
+
+spec :: Spec
+spec = do
+  count <- runIO (fromMaybe 50 <$> askedCount "PARTC_CARVINGS")
+  it "V-carvings of random areas are proven (catches a floor that is carved beside its walls only)" $
+    withMaxSuccess count $
+      forAllBlind carved $ \(text, path, program) ->
+        counterexample (Text.unpack text) $
+          codesOf path program (map Frame.frame (Frame.plannedFrames program)) === []
+  it "a move that carves deeper goes beyond the edge (catches a cone that is judged at its tip)" $
+    withMaxSuccess count $
+      forAllBlind carved $ \(text, path, program) ->
+        forAll (elements (places isAlong program)) $ \n ->
+          refused text path program "E0747" [(n, -deviation), (n + 1, deviation)]
+  it
+    "a chain that is carved less deep leaves an edge (catches edges that a smaller disc may carve)"
+    $ withMaxSuccess count $
+      forAllBlind carved $ \(text, path, program) ->
+        forAll (elements (longChains program)) $ \(n, up) ->
+          refused text path program "E0748" [(n, deviation), (up, -deviation)]
+  where
+    deviation = 300
+    refused text path program code changes =
+      let found = codesOf path program (raised changes (map Frame.frame (Frame.plannedFrames program)))
+       in counterexample (Text.unpack text <> show (changes, found)) (code `elem` found)
+    isAlong f = isFeed f && (x /= 0 || y /= 0)
+      where
+        Pulses3 x y _ = increment (Frame.frame f)
+    isDown f = isFeed f && vertical f < 0
+    isUp f = not (isFeed f) && vertical f > 0
+    isFeed f = motion (Frame.frame f) /= Rapid
+    vertical f = case increment (Frame.frame f) of
+      Pulses3 0 0 z -> z
+      _ -> 0
+    -- Frames of the carving, by their numbers from 0.
+    places has program =
+      [n | (n, f) <- zip [0 :: Int ..] (Frame.plannedFrames program), isCarving (role f), has f]
+    isCarving r = case r of
+      Carving _ -> True
+      _ -> False
+    -- Chains of at least 5 mm, each by the frames that go down before it and up after it.
+    longChains program =
+      [ (n, up)
+        | (n, up) <- zip (places isDown program) (places isUp program),
+          sum [abs x + abs y | (k, f) <- zip [0 ..] (Frame.plannedFrames program), k > n, k < up, let { Pulses3 (Pulses x) (Pulses y) _ = increment (Frame.frame f) }] > 5000
+      ]
+    raised changes frames =
+      [ f {increment = increment f + Pulses3 0 0 (Pulses (sum [z | (k, z) <- changes, k == n]))}
+        | (n, f) <- zip [0 ..] frames
+      ]
+
+-- | The codes of the findings of a tape.
+codesOf :: Toolpath -> FrameProgram -> [Frame] -> [Text]
+codesOf path program frames =
+  [ code
+    | Report.Report {Report.code = Report.ReportCode code} <-
+        Proof.toReports Millimetres machine (Verify.prove machine path program frames)
+  ]
+  where
+    machine = Machines.iso6983
+
+-- | A program that carves a random area, its toolpath and its planned frames.
+carved :: Gen (Text, Toolpath, FrameProgram)
+carved = do
+  count <- choose (3, 9)
+  radii <- vectorOf count (choose (14, 40))
+  hole <- elements ["", "circle((0, 0), 3)", "circle((1, 1), 2), slot((-4, -2), (4, -3), 1)"]
+  rounding <- elements [0, 1, -1.5]
+  angle <- elements [30, 60, 90, 120]
+  deep <- choose (0.5, 9)
+  let corner i r =
+        let t = 2 * pi * fromIntegral (i :: Int) / fromIntegral count
+         in "(" <> number (r * cos t) <> ", " <> number (r * sin t) <> ")"
+      text =
+        Text.unlines
+          [ "part p",
+            "machine iso6983",
+            "tool 1 vbit(angle " <> number angle <> ", tip 0, diameter 60)",
+            "feed 300",
+            "tolerance 0.02",
+            "clearance 2",
+            "from (0, 0, 2)",
+            "contour star closed { " <> Text.unwords (zipWith corner [0 ..] radii) <> " }",
+            "let area = offset_of(region(star), " <> number rounding <> ")",
+            if Text.null hole then "" else "let holes = region([" <> hole <> "])",
+            "vcarve " <> (if Text.null hole then "area" else "difference(area, holes)")
+              <> " { depth "
+              <> number deep
+              <> " }"
+          ]
+  case taped text of
+    Nothing -> carved
+    Just (path, program) -> pure (text, path, program)
+  where
+    number v = Text.pack (showFFloat (Just 3) (v :: Double) "")
+
+-- | The toolpath and the planned frames of a text; Nothing if it has an error.
+taped :: Text -> Maybe (Toolpath, FrameProgram)
+taped text = do
+  Analysis {Compile.path = path} <-
+    Result.ifSound (Compile.analyse [] (LoadedProgram.fromText "p.part" text))
+  (path,)
+    <$> Result.ifSound (FromToolpath.quantise (Target.setUpFor path Machines.iso6983) path)
