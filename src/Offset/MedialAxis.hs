@@ -106,8 +106,8 @@ contact site u = case site of
   Side s -> (Segment.at u s, Vec.left (Segment.directionAt u s))
   Corner p n turn -> (p, Vec.rotate (Rad (u * turn)) n)
 
--- | The radius of the disc that touches one site at the point @p@, with the unit normal @n@ into the
--- area there, and that touches another site; Nothing if no such disc touches it from the area.
+-- | The radius of the disc that touches one site at the point @p@, with the unit normal @n@ into
+-- the area there, and that touches another site; Nothing if no such disc touches it from the area.
 --
 -- A disc of radius r has its centre at p + r·n. For each kind of site the condition that it touches
 -- is linear in r.
@@ -167,7 +167,10 @@ sample f u
       BoundingBox (Vec.x c - start) (Vec.y c - start) (Vec.x c + start) (Vec.y c + start)
     near = BoxTree.within box (tree (around f))
     least s (k, other)
-      | k /= own f, Just r <- radiusBetween p n other, r < radius s - smallest = Sample u r (Other k)
+      | k /= own f,
+        Just r <- radiusBetween p n other,
+        r < radius s - smallest =
+        Sample u r (Other k)
       | otherwise = s
     -- Equal radii but for rounding are those of the site that comes first.
     Mm smallest = Tolerance.smallestDisc
@@ -265,9 +268,10 @@ shares f = dropEqual (sort (even' <> filter isInside (mapMaybe near found)))
 
 -- Branches ----------------------------------------------------------------------------------------
 
--- | The branches of the medial axis of an area. The first argument is the largest deviation in mm of
--- a straight stretch from the axis, and of the radius along it; the second one the largest radius
--- of the discs in mm. The area lies on the left of closed loops that neither cross nor touch.
+-- | The branches of the medial axis of an area. The first argument is the largest deviation in mm
+-- of a straight stretch from the axis, and of the radius along it; the second one the largest
+-- radius of the discs in mm. The area lies on the left of closed loops that neither cross nor
+-- touch.
 branches :: Mm -> Mm -> NonEmpty Polyarc -> [Branch]
 branches (Mm tolerance) (Mm most) loops =
   concat
@@ -291,7 +295,8 @@ branchOf tolerance f (a, b, bound') = case bound' of
   _ -> [straight a (discAt a) b (discAt b)]
   where
     first = discRadius (discAt a)
-    isLevel = all (\t -> abs (discRadius (discAt (a + t * (b - a))) - first) <= smallest) [0.25, 0.5, 1]
+    isLevel = all (\t -> abs (discRadius (discAt (a + t * (b - a))) - first) <= smallest) thirds
+    thirds = [0.25, 0.5, 1]
     Mm smallest = Tolerance.smallestDisc
     discAt u =
       let (p, n) = contact (site f) u

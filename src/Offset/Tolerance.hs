@@ -64,8 +64,8 @@ rounding = 1e-14
 tangential :: Double
 tangential = 1e-9
 
--- | The radius in mm of the smallest disc that touches the boundary of an area at two points. Smaller
--- ones lie in a corner.
+-- | The radius in mm of the smallest disc that touches the boundary of an area at two points.
+-- Smaller ones lie in a corner.
 smallestDisc :: Mm
 smallestDisc = Mm 1e-9
 

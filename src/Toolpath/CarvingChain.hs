@@ -69,12 +69,16 @@ chains found = walks (freeEnds <> map fst (IntMap.toList from)) from IntSet.empt
     fanned list =
       IntMap.fromListWith
         (flip (<>))
-        (concat [[(a, [(k, z, b)]), (z, [(k, a, backwards b)])] | (k, (a, z, b)) <- zip [0 ..] list])
+        ( concat
+            [ [(a, [(k, z, b)]), (z, [(k, a, backwards b)])]
+              | (k, (a, z, b)) <- zip [0 ..] list
+            ]
+        )
     freeEnds = [n | (n, [_]) <- IntMap.toList from]
 
--- | Chains from the nodes @starts@, in their order. @from@ has the branches at each node: the number
--- of the branch, the node at its other end, and the branch in the direction away from the node.
--- The branches with the numbers @done@ are left out.
+-- | Chains from the nodes @starts@, in their order. @from@ has the branches at each node: the
+-- number of the branch, the node at its other end, and the branch in the direction away from the
+-- node. The branches with the numbers @done@ are left out.
 walks :: [Int] -> IntMap [(Int, Int, Branch)] -> IntSet -> [NonEmpty Branch]
 walks starts from done = case starts of
   [] -> []

@@ -25,13 +25,14 @@ import Toolpath.Tolerance qualified as Tolerance
 import Toolpath.Toolpath (CarvingRest (..), Manner (Manner), Move (Move))
 
 -- | The moves of a V-carving, and what it leaves because its tip is too wide. @at@ is the position
--- of the tool before the statement. Fails if the tip fits nowhere, or if it leaves material that the
--- program does not allow.
+-- of the tool before the statement. Fails if the tip fits nowhere, or if it leaves material that
+-- the program does not allow.
 moves :: SpacePoint -> Located Carving -> Either Error (NonEmpty Move, Maybe CarvingRest)
 moves at (Located region c) = case concat (snd (mapAccumL alongChain at chains)) of
   [] -> Left (NowhereCarved word (Part.carvingTip c))
   m : more -> case restOf c axes of
-    Just rest | Part.carvingRest c == Part.Refused -> Left (CarvingLeaves word rest (Part.carvingTip c))
+    Just rest
+      | Part.carvingRest c == Part.Refused -> Left (CarvingLeaves word rest (Part.carvingTip c))
     rest -> Right (m :| more, rest)
   where
     word = LinkingMove.keyword 6 region
@@ -46,8 +47,9 @@ moves at (Located region c) = case concat (snd (mapAccumL alongChain at chains))
 -- | The medial axis of an area, for discs up to the radius of the cone at the largest depth.
 axisOf :: Carving -> (Part.Contour, [Part.Contour]) -> [Branch]
 axisOf c (outline, holes) =
-  MedialAxis.branches (Mm (Tolerance.axisShare * limit)) (Mm widest) (fmap Part.polyarcOf (outline :| holes))
+  MedialAxis.branches (Mm (Tolerance.axisShare * limit)) (Mm widest) loops
   where
+    loops = fmap Part.polyarcOf (outline :| holes)
     Mm limit = uncurry min (Part.deviationLimits (Part.carvingTolerance c))
     Mm tip = Part.carvingTip c
     Mm depth = Part.carvingDepth c
@@ -76,8 +78,8 @@ chainMoves word c at chain =
         Move (Straight p q) (Manner (heightAt c a, heightAt c b) feed False) word False
       Level g r -> Move g (Manner (heightAt c r, heightAt c r) feed False) word False
 
--- | The height of the tip at which the cone has a radius in mm at the top of the part. The radius is
--- at least that of the tip.
+-- | The height of the tip at which the cone has a radius in mm at the top of the part. The radius
+-- is at least that of the tip.
 heightAt :: Carving -> Double -> Mm
 heightAt c r = Mm (negate (max 0 (r - tip)) / tan half)
   where
@@ -96,9 +98,9 @@ restOf c axes = foldr1 thicker <$> NonEmpty.nonEmpty (map single (filter isThick
     thicker a b =
       (if thickest a >= thickest b then a else b) {restCount = restCount a + restCount b}
 
--- | The thickness of what a tip of some radius leaves along a branch, and the point there. The discs
--- that are smaller than the tip go beyond the nearest one as large as the tip by this thickness. If
--- all are smaller, it is the diameter of the largest one.
+-- | The thickness of what a tip of some radius leaves along a branch, and the point there. The
+-- discs that are smaller than the tip go beyond the nearest one as large as the tip by this
+-- thickness. If all are smaller, it is the diameter of the largest one.
 narrowest :: Mm -> Branch -> Maybe (Mm, Point)
 narrowest (Mm tip) branch = case (filter isNarrow discs, ends) of
   ([], _) -> Nothing

@@ -1,9 +1,9 @@
 -- | V-carvings on the tape: the cone may not leave the area at the top of the part, and it has to
 -- carve the edges of the area.
 --
--- A motion cuts, at the top of the part, a disc about each position of its centre. The radius of the
--- disc grows evenly with the depth. So on a straight motion the least distance of the disc from a
--- point is at an end of the motion, or where the derivative of its distance vanishes. This has a
+-- A motion cuts, at the top of the part, a disc about each position of its centre. The radius of
+-- the disc grows evenly with the depth. So on a straight motion the least distance of the disc from
+-- a point is at an end of the motion, or where the derivative of its distance vanishes. This has a
 -- closed form.
 module Verify.CarvingCheck
   ( carvingFindings,
@@ -16,6 +16,7 @@ import Data.IntMap.Strict qualified as IntMap
 import Data.List (foldl')
 import Data.List.NonEmpty (NonEmpty (..))
 import Data.List.NonEmpty qualified as NonEmpty
+import Data.Semigroup (sconcat)
 import Frame.Frame (FrameProgram)
 import Frame.Frame qualified as Frame
 import Geometry.Distance qualified as Distance
@@ -78,8 +79,8 @@ carvingFindings machine path program isAligned toolsIn motions =
     roles = IntMap.fromList (zip [1 ..] (map Frame.role (Frame.plannedFrames program)))
     isNear c m = BoundingBox.meets (Motion.box m) (boxOf c)
     boxOf c =
-      foldr1 BoundingBox.union $
-        fmap (foldr1 BoundingBox.union . fmap BoundingBox.ofSegment . segmentsOf) (Part.carvedAreas c)
+      foldr1 BoundingBox.union (sconcat (fmap boxes (Part.carvedAreas c)))
+    boxes = fmap BoundingBox.ofSegment . segmentsOf
 
 segmentsOf :: (Part.Contour, [Part.Contour]) -> NonEmpty Segment
 segmentsOf (outline, holes) =
@@ -114,7 +115,12 @@ radiusAt c (Mm z)
 
 findingsOf :: Carved -> [CutterMotion] -> [Finding]
 findingsOf carved ms =
-  take 1 [CarvesBeyond (number m) p (Mm far) (statement carved) | m <- ms, Just (p, far) <- [beyond carved m]]
+  take
+    1
+    [ CarvesBeyond (number m) p (Mm far) (statement carved)
+      | m <- ms,
+        Just (p, far) <- [beyond carved m]
+    ]
     <> take 1 [EdgeNotCarved (statement carved) p | p <- uncarved carved ms]
 
 -- The cone ----------------------------------------------------------------------------------------
@@ -133,22 +139,26 @@ beyond carved m
     (r0, r1) = (radiusAt c from, radiusAt c to)
     paths = Motion.pathList m
     ends = [(Segment.start (segment m), r0), (Segment.end (segment m), r1)]
-    isOutside (q, r) = r > allowed carved && all (\ss -> WindingNumber.about q ss /= 1) (areas carved)
-    near path = BoxTree.within (BoundingBox.inflate (Mm (max 0 (max r0 r1))) (BoundingBox.ofSegment path)) (edges carved)
+    isOutside (q, r) =
+      r > allowed carved && all (\ss -> WindingNumber.about q ss /= 1) (areas carved)
+    near path =
+      BoxTree.within (BoundingBox.inflate widest (BoundingBox.ofSegment path)) (edges carved)
+    widest = Mm (max 0 (max r0 r1))
     (far, p) =
       foldl'
         (\a b -> if fst b > fst a then b else a)
         (0, Segment.start (segment m))
         [overlap (path, r0, r1) e | path <- paths, e <- near path]
 
--- | The largest amount by which the discs along a path go beyond an edge, and the centre of the disc
--- that does. The radius changes evenly along the path.
+-- | The largest amount by which the discs along a path go beyond an edge, and the centre of the
+-- disc that does. The radius changes evenly along the path.
 overlap :: (Segment, Double, Double) -> Segment -> (Double, Point)
 overlap (path, r0, r1) edge = case path of
   Straight a b -> maximum' [over t a b | t <- 0 : 1 : concatMap (stationary a b) centres]
   Arc {} ->
-    let Distance.ClosestPoint {Distance.distance = Mm d, Distance.nearestPoint = q} = Distance.segments path edge
-     in (max r0 r1 - d, q)
+    let closest = Distance.segments path edge
+        Mm d = Distance.distance closest
+     in (max r0 r1 - d, Distance.nearestPoint closest)
   where
     maximum' = foldr1 (\x y -> if fst x >= fst y then x else y)
     over t a b =
@@ -237,7 +247,12 @@ largest carved p n = go (100 :: Int) widest
     within = 0.01 * allowed carved
     nearestWithin c r =
       let box = BoundingBox (Vec.x c - r) (Vec.y c - r) (Vec.x c + r) (Vec.y c + r)
-          found = [(d, q) | e <- BoxTree.within box (edges carved), let (Mm d, q) = Distance.nearest c e, d < r]
+          found =
+            [ (d, q)
+              | e <- BoxTree.within box (edges carved),
+                let (Mm d, q) = Distance.nearest c e,
+                d < r
+            ]
        in case found of
             [] -> Nothing
             first : more -> Just (snd (foldl' (\a b -> if fst b < fst a then b else a) first more))

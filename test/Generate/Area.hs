@@ -24,7 +24,7 @@ area = do
   radii <- vectorOf count (elements [20, 25, 31, 40, 57])
   bulges <- vectorOf count (elements [0, 0, 0, 0.3, -0.1, -0.2])
   turn <- choose (0, 1)
-  hole <- elements [[], [Polyarc Closed (Segment.fullCircle Clockwise (Circle origin (Mm 3)) (Vec.point 3 0) :| [])], [square]]
+  hole <- elements [[], [Polyarc Closed (ring :| [])], [square]]
   let corners = [corner turn count i r | (i, r) <- zip [0 :: Int ..] radii]
       sides = zipWith3 side corners (drop 1 corners <> take 1 corners) (map (scaled count) bulges)
       isWide = all (\s -> Distance.toPoint origin s > Mm 4) sides
@@ -37,8 +37,10 @@ area = do
     _ -> area
   where
     origin = Vec.point 0 0
+    ring = Segment.fullCircle Clockwise (Circle origin (Mm 3)) (Vec.point 3 0)
     corner turn count i r =
-      Vec.shift (Vec.polar (Mm r) (Rad (2 * pi * (fromIntegral i + turn) / fromIntegral count))) origin
+      let t = 2 * pi * (fromIntegral i + turn) / fromIntegral count
+       in Vec.shift (Vec.polar (Mm r) (Rad t)) origin
     side p q b = if b == 0 then Straight p q else Segment.fromBulge p q b
     -- Arcs inwards stay clear of the middle and of one another.
     scaled count b = if b < 0 && count < 5 then 0 else b

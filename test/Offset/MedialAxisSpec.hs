@@ -34,8 +34,8 @@ spec = do
                 | d@(Disc c r) <- concatMap discsAlong axis
               ]
   it
-    "the largest disc at any point of the boundary is on the medial axis (catches branches that are \
-    \left out by both of their sites)"
+    "the largest disc at any point of the boundary is on the medial axis (catches branches that \
+    \are left out by both of their sites)"
     $ property $
       forAll area $ \loops -> forAll limit $ \most ->
         forAll (choose (0, length (sidesOf loops) - 1)) $ \k -> forAll (choose (0.01, 0.99)) $ \u ->
@@ -60,7 +60,8 @@ clearance :: NonEmpty Polyarc -> Point -> Double
 clearance loops p = minimum [d | s <- sidesOf loops, let Mm d = Distance.toPoint p s]
 
 isInside :: NonEmpty Polyarc -> Point -> Double -> Property
-isInside loops p r = counterexample "outside" (r < 1e-4 || WindingNumber.about p (sidesOf loops) == 1)
+isInside loops p r =
+  counterexample "outside" (r < 1e-4 || WindingNumber.about p (sidesOf loops) == 1)
 
 -- | The radius of the largest disc that touches the boundary at a point with a normal, found by
 -- halving.

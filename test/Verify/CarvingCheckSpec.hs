@@ -31,7 +31,9 @@ import Verify.Proof qualified as Proof
 spec :: Spec
 spec = do
   count <- runIO (fromMaybe 50 <$> askedCount "PARTC_CARVINGS")
-  it "V-carvings of random areas are proven (catches a floor that is carved beside its walls only)" $
+  it
+    "V-carvings of random areas are proven (catches a floor that is carved beside its walls only)"
+    $
     withMaxSuccess count $
       forAllBlind carved $ \(text, path, program) ->
         counterexample (Text.unpack text) $
@@ -50,7 +52,8 @@ spec = do
   where
     deviation = 300
     refused text path program code changes =
-      let found = codesOf path program (raised changes (map Frame.frame (Frame.plannedFrames program)))
+      let frames = raised changes (map Frame.frame (Frame.plannedFrames program))
+          found = codesOf path program frames
        in counterexample (Text.unpack text <> show (changes, found)) (code `elem` found)
     isAlong f = isFeed f && (x /= 0 || y /= 0)
       where
@@ -71,8 +74,9 @@ spec = do
     longChains program =
       [ (n, up)
         | (n, up) <- zip (places isDown program) (places isUp program),
-          sum [abs x + abs y | (k, f) <- zip [0 ..] (Frame.plannedFrames program), k > n, k < up, let { Pulses3 (Pulses x) (Pulses y) _ = increment (Frame.frame f) }] > 5000
+          sum (map lengthOf (take (up - n) (drop n (Frame.plannedFrames program)))) > 5000
       ]
+    lengthOf f = let Pulses3 (Pulses x) (Pulses y) _ = increment (Frame.frame f) in abs x + abs y
     raised changes frames =
       [ f {increment = increment f + Pulses3 0 0 (Pulses (sum [z | (k, z) <- changes, k == n]))}
         | (n, f) <- zip [0 ..] frames
