@@ -74,8 +74,8 @@ data Error
     WrongLink LinkingMoveError
   | -- | a V-carving whose tip fits nowhere: the statement, the radius of the tip
     NowhereCarved Region Mm
-  | -- | a V-carving whose tip is so wide that it leaves material: the statement, what it leaves, the
-    -- radius of the tip
+  | -- | a V-carving whose tip leaves material because it is too wide: the statement, what it
+    -- leaves, the radius of the tip
     CarvingLeaves Region CarvingRest Mm
   | -- | a hole that cuts into a contour
     HoleCuts HoleCut
