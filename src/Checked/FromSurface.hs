@@ -13,6 +13,7 @@ where
 import Base.Name (Name (..))
 import Base.Region (Located (..), Region (..))
 import Base.Result (Result (..))
+import Checked.Assertion qualified as Assertion
 import Checked.CallError qualified as CallError
 import Checked.Column qualified as Column
 import Checked.Contour (item)
@@ -29,7 +30,6 @@ import Checked.Expression
     infer,
     isBuiltin,
     listOf,
-    operation,
     repetition,
     spatialPoint,
   )
@@ -180,7 +180,7 @@ statement env (Located at s) = case s of
   Surface.SafeHeight e -> one (fmap Checked.SafeHeight <$> expect env Type.len e)
   Surface.Stock e zs -> one (solid env Checked.Stock e zs)
   Surface.Avoid e zs -> one (solid env Checked.Avoid e zs)
-  Surface.Assert e within -> one (fmap Checked.Assert <$> assertion env e within)
+  Surface.Assert e within -> one (fmap Checked.Assert <$> Assertion.check env e within)
   Surface.Mill e side options ->
     one (machining env Checked.Mill "mill" (outlined env e) side options)
   Surface.Turn e side options ->
@@ -551,50 +551,3 @@ spindle env spin = case spin of
     isBare e = case value e of
       Surface.Literal _ Nothing -> True
       _ -> False
-
--- | Checks an assertion. It is an inequality, an equality with an optional tolerance, or another
--- expression that is true or false. @within@ is the tolerance, which only an equality may have.
-assertion ::
-  TypingEnvironment ->
-  Surface.Expr ->
-  Maybe Surface.Expr ->
-  Infer (Deferred Checked.Assertion)
-assertion env e within = case (value e, within) of
-  (Surface.Binary Surface.Equal l r, _) -> do
-    (t, l', r') <- compared Surface.Equal l r
-    kind <- Inference.resolved t
-    -- If the left operand is not a quantity, 'compared' has reported it, unless its type is still
-    -- unknown. In both cases the tolerance is checked against the type 'Wrong'. This type accepts
-    -- every tolerance, so that there is no report on the tolerance.
-    let toleranceType = case kind of
-          Type.Quantity _ -> t
-          _ -> Type.Wrong
-    within' <- traverse (expect env toleranceType) within
-    d <- Type.dimensionOf <$> Inference.resolved t
-    pure (\sol -> Checked.Agrees (sol d) (l' sol) (r' sol) (($ sol) <$> within'))
-  (Surface.Binary op l r, Nothing) | op `elem` inequalities -> do
-    (t, l', r') <- compared op l r
-    d <- Type.dimensionOf <$> Inference.resolved t
-    pure (\sol -> Checked.Compares (sol d) (region e) op (l' sol) (r' sol))
-  (_, Just d) -> do
-    Inference.mistake
-      ( WithinWithoutEquality
-          (region d)
-          (Region (end (region e)) (end (region d)))
-          (betweenOperands e)
-      )
-    (Checked.Holds .) . snd <$> infer env e
-  (_, Nothing) -> (Checked.Holds .) <$> expect env Type.Boolean e
-  where
-    compared op l r = do
-      (lt, l') <- infer env l
-      (rt, r') <- infer env r
-      _ <- operation (region e) op (region l, lt) (region r, rt)
-      pure (lt, l', r')
-    betweenOperands x = case value x of
-      Surface.Binary op l r
-        | op `elem` inequalities ->
-          Just (Region (end (region l)) (start (region r)))
-      _ -> Nothing
-    inequalities =
-      [Surface.Less, Surface.AtMost, Surface.Greater, Surface.AtLeast, Surface.Unequal]
