@@ -6,6 +6,7 @@ import Base.Region (Source)
 import Base.Region qualified as Region
 import Base.Result (Result (..), mapErrors)
 import Control.Monad (filterM, forM, forM_)
+import Data.ByteString qualified as ByteString
 import Data.List (sort)
 import Data.Map.Strict (Map)
 import Data.Map.Strict qualified as Map
@@ -122,10 +123,15 @@ checked file text = case takeExtension file of
     pure (LoadedProgram.source loaded, sortedReports result)
   where
     sortedReports result = Report.sorted (errors result <> warnings result)
-    reader = (Import.byName read') {Import.listing = listDirectory}
-    read' name = do
+    reader =
+      (Import.byName (read' readText))
+        { Import.bytes = read' ByteString.readFile,
+          Import.listing = listDirectory
+        }
+    read' :: (FilePath -> IO a) -> FilePath -> IO (Either Text a)
+    read' readAs name = do
       exists <- doesFileExist name
-      if exists then Right <$> readText name else pure (Left "there is no such file")
+      if exists then Right <$> readAs name else pure (Left "there is no such file")
 
 -- | Programs in a folder and the folders in it.
 partsIn :: FilePath -> IO [FilePath]

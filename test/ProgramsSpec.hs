@@ -12,6 +12,7 @@ import Cli.FrameTable qualified as FrameTable
 import Compile (Compiled (..), Punched (..))
 import Compile qualified
 import Control.Monad (forM_, void)
+import Data.ByteString qualified as ByteString
 import Data.List (isInfixOf, nub, sort)
 import Data.Maybe (fromMaybe)
 import Data.Text (Text)
@@ -123,11 +124,16 @@ loadedFrom file = do
       loaded
     )
   where
-    reader = (Import.byName beside) {Import.listing = listDirectory . (takeDirectory file </>)}
-    beside name = do
+    reader =
+      (Import.byName (beside readText))
+        { Import.bytes = beside ByteString.readFile,
+          Import.listing = listDirectory . (takeDirectory file </>)
+        }
+    beside :: (FilePath -> IO a) -> FilePath -> IO (Either Text a)
+    beside readAs name = do
       let path = takeDirectory file </> name
       exists <- doesFileExist path
-      if exists then Right <$> readText path else pure (Left "there is no such file or folder")
+      if exists then Right <$> readAs path else pure (Left "there is no such file or folder")
 
 -- | The report codes that are string literals of a source: E or W and four digits.
 codesIn :: Text -> [Text]

@@ -81,10 +81,10 @@
      1 font-lock-keyword-face)
     ("^[ \t]*\\(rest[ \t]+of\\)[ \t]" 1 font-lock-keyword-face)
     ("^[ \t]*\\(engrave\\)[ \t]+\"" 1 font-lock-keyword-face)
-    ("^[ \t]*engrave[ \t].*\\_<\\(at\\)\\_>.*\\_<\\(height\\)\\_>"
+    ("^[ \t]*\\(?:engrave\\|contours\\)[ \t].*\\_<\\(at\\)\\_>.*\\_<\\(height\\)\\_>"
      (1 font-lock-keyword-face) (2 font-lock-keyword-face))
-    ("^[ \t]*engrave[ \t].*\\_<\\(direction\\|around\\)\\_>" 1 font-lock-keyword-face)
-    ("^[ \t]*engrave[ \t].*\\_<\\(align\\)[ \t]+\\(left\\|centre\\|right\\)\\_>"
+    ("^[ \t]*\\(?:engrave\\|contours\\)[ \t].*\\_<\\(direction\\|around\\)\\_>" 1 font-lock-keyword-face)
+    ("^[ \t]*\\(?:engrave\\|contours\\)[ \t].*\\_<\\(align\\)[ \t]+\\(left\\|centre\\|right\\)\\_>"
      (1 font-lock-keyword-face) (2 font-lock-keyword-face))
     ("^[ \t]*pocket[ \t].*[ \t]\\(as\\)[ \t]" 1 font-lock-keyword-face)
     ("^[ \t]*\\(\\(?:optional[ \t]+\\)?stop\\)[ \t]*\\(?:--.*\\)?$" 1 font-lock-keyword-face)
@@ -101,7 +101,7 @@
     ("\\_<change\\_>.*)[ \t]*\\(at\\)\\_>" 1 font-lock-keyword-face)
     ("^[ \t]*dwell[ \t].*\\_<\\(s\\)[ \t]*\\(?:--.*\\)?$" 1 font-lock-keyword-face)
     ("^[ \t]*\\(?:stock\\|avoid\\)[ \t].*?\\_<from\\_>.*?\\_<\\(to\\)\\_>" 1 font-lock-keyword-face)
-    ("^[ \t]*\\(?:contours?\\|table\\)[ \t].*\\_<from[ \t]+\".*?\"[ \t]+\\(layer\\|id\\|class\\|unit\\)\\_>"
+    ("^[ \t]*\\(?:contours?\\|table\\)[ \t].*\\_<from[ \t]+\".*?\"[ \t]+\\(layer\\|id\\|class\\|unit\\|text\\)\\_>"
      1 font-lock-keyword-face)
     ("\\_<corners[ \t]+\\(round\\|sharp\\)\\_>" 1 font-lock-keyword-face)
     ("\\_<compensation[ \t]+\\(compiler\\|controller\\)\\_>" 1 font-lock-keyword-face)

@@ -54,6 +54,7 @@ provide-module part %§
     add-highlighter shared/part/code/ regex ^\h*(rest\h+of)\h 1:keyword
     add-highlighter shared/part/code/ regex ^\h*(engrave)\h 1:keyword
     add-highlighter shared/part/code/ regex \b(at)\b[^\n]*\b(height)\b[^\n]*\{ 1:keyword 2:keyword
+    add-highlighter shared/part/code/ regex ^\h*contours\h[^\n]*\bfrom\h[^\n]*\b(text)\h[^\n]*\b(at)\b[^\n]*\b(height)\h 1:keyword 2:keyword 3:keyword
     add-highlighter shared/part/code/ regex \bheight\b[^\n]*\b(direction|around)\h 1:keyword
     add-highlighter shared/part/code/ regex \b(align)\h+(left|centre|right)\b 1:keyword 2:keyword
     add-highlighter shared/part/code/ regex ^\h*pocket\h[^\n]*\h(as)\h 1:keyword

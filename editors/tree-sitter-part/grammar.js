@@ -166,15 +166,15 @@ module.exports = grammar({
       'step', $._expression,
       $.settings,
     ),
-    engrave: $ => seq(
-      'engrave', $.text, 'at', $._expression, 'height', $._expression,
+    engrave: $ => seq('engrave', $._lettering, $.settings),
+    _lettering: $ => prec.right(seq(
+      $.text, 'at', $._expression, 'height', $._expression,
       optional(choice(
         seq('direction', $._expression),
         seq('around', $._expression, optional(choice('inside', 'outside'))),
       )),
       optional(seq('align', choice('left', 'centre', 'right'))),
-      $.settings,
-    ),
+    )),
     vcarve: $ => seq('vcarve', field('region', $._expression), $.settings),
     drill: $ => seq('drill', 'at', $._expression, 'depth', $._expression, optional($.settings)),
     hole: $ => seq(
@@ -284,7 +284,12 @@ module.exports = grammar({
       field('items', $.items),
     ),
     drawn_contour: $ => seq('contour', field('name', $.name), 'from', $._drawing),
-    drawn_contours: $ => seq('contours', field('name', $.name), 'from', $._drawing),
+    drawn_contours: $ => seq(
+      'contours',
+      field('name', $.name),
+      'from',
+      choice($._drawing, seq(field('file', $.text), 'text', $._lettering)),
+    ),
     _drawing: $ => prec.right(seq(
       field('file', $.text),
       optional(seq(choice('layer', 'id', 'class'), $.text)),

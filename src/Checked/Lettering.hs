@@ -1,6 +1,7 @@
--- | Checks texts to be engraved: their points, heights, directions and circles.
+-- | Checks texts that are cut: their points, heights, directions and circles.
 module Checked.Lettering
   ( check,
+    checkPlace,
   )
 where
 
@@ -32,3 +33,18 @@ check env text = do
         Checked.textLine = line sol,
         Checked.textAlignment = fromMaybe Surface.AlignLeft (Surface.alignment text)
       }
+
+-- | Checks the place of a text with outlines. The direction is 'Nothing' if it is along x. A text
+-- round a circle has been refused where its font was read.
+checkPlace ::
+  TypingEnvironment ->
+  Surface.Lettering ->
+  Infer (Deferred (Checked.Expr, Checked.Expr, Maybe Checked.Expr))
+checkPlace env text = do
+  point <- expect env Type.aPoint (Surface.textPoint text)
+  height <- expect env Type.len (Surface.textHeight text)
+  direction <- case Surface.course text of
+    Surface.Level -> pure (const Nothing)
+    Surface.Inclined e -> fmap Just <$> expect env Type.angle e
+    Surface.Around _ _ -> pure (const Nothing)
+  pure (\sol -> (point sol, height sol, direction sol))

@@ -154,6 +154,9 @@ data Statement_
   | -- | the name, the curve, the ciphers, the side to which they shift the curve, and the joggles
     Piece (Located Name) Expr [Cipher] (Located Side) [Joggle]
   | Contour (Located Name) (Located Closure) [Item]
+  | -- | the place of a text with outlines: the name of its region, its point, the height of its
+    -- capitals in mm, and its direction if that is not along x
+    TextPlace (Located Name) Expr Expr (Maybe Expr)
   | Assert Assertion
   | Mill Expr (Located Side) Settings
   | -- | the contour, the stepover in mm, the name of the operation, and the settings

@@ -1,7 +1,8 @@
--- | The formats of drawings, by the names of their files.
+-- | The formats of drawings and fonts, by the names of their files.
 module Drawing.FileFormat
   ( FileFormat (..),
     formatOf,
+    isFont,
   )
 where
 
@@ -15,8 +16,13 @@ data FileFormat = Dxf | Svg
 -- | The format of a file with a name; Nothing if it is no drawing.
 formatOf :: Text -> Maybe FileFormat
 formatOf name
-  | hasEnd ".dxf" = Just Dxf
-  | hasEnd ".svg" = Just Svg
+  | hasEnd name ".dxf" = Just Dxf
+  | hasEnd name ".svg" = Just Svg
   | otherwise = Nothing
-  where
-    hasEnd extension = extension `Text.isSuffixOf` Text.toLower name
+
+-- | True for the name of a font file.
+isFont :: Text -> Bool
+isFont name = any (hasEnd name) [".ttf", ".otf", ".ttc"]
+
+hasEnd :: Text -> Text -> Bool
+hasEnd name extension = extension `Text.isSuffixOf` Text.toLower name

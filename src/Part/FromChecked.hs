@@ -53,6 +53,7 @@ import Part.Part
 import Part.Piece qualified as Piece
 import Part.PlaneRegion qualified as PlaneRegion
 import Part.RestMachining qualified as RestMachining
+import Part.TextPlace qualified as TextPlace
 import Part.Transformation qualified as Transformation
 import Part.Value (ClearedPockets (..), Value (..))
 
@@ -216,6 +217,9 @@ step state (Located at s) = case s of
   Checked.Contour name closure items ->
     keep (ContourElement.contour env name closure items) $ \c ->
       (define state name Dimension.none (ContourValue c)) {contours' = c : contours' state}
+  Checked.TextPlace name point height direction ->
+    keep (TextPlace.vectors env point height direction) $ \vs ->
+      withEnvironment state (TextPlace.bound (value name) vs env)
   Checked.Assert assertion ->
     keep
       (Assertion.check at env assertion *> Assertion.sizes env assertion)

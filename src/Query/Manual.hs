@@ -148,7 +148,10 @@ contours =
     [("contour", "Defines a contour of the part by its elements, or takes it from a drawing.")]
     <> under
       "drawing-files.md#in-a-program"
-      [("contours", "Takes all outlines of a drawing as a region.")]
+      [("contours", "Takes all outlines of a drawing, or of a text in a font, as a region.")]
+    <> under
+      "drawing-files.md#letters-of-a-font"
+      [("text", "Writes a text in a font, whose outlines make a region.")]
     <> under
       "language.md#open-and-closed"
       [ ("open", "Makes a contour that begins and ends at its first and last element."),

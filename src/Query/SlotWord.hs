@@ -92,14 +92,20 @@ entries keyword = case keyword of
 drawnEntries :: Text -> [(Text, ([Slot], [Slot]))]
 drawnEntries keyword = case keyword of
   "contour" -> named ["closed", "open", "from"] <> [("closed", ([], [])), ("open", ([], []))]
-  "contours" -> named ["from"]
+  "contours" ->
+    [ (keyword, ([], words' ["from"])),
+      ("from", ([], words' ("text" : chosen))),
+      ("text", ([], words' ["at"]))
+    ]
+      <> filter ((`notElem` ["around", "inside", "outside"]) . fst) (letteringEntries ["direction"])
   "table" -> named ["from"]
   _ -> clearingEntries keyword
   where
     named after =
       [ (keyword, ([], words' after)),
-        ("from", ([], words' ["layer", "id", "class", "unit", "within"]))
+        ("from", ([], words' chosen))
       ]
+    chosen = ["layer", "id", "class", "unit", "within"]
 
 -- | The entries of statements that clear pockets and surfaces, and those of 'commandEntries'.
 clearingEntries :: Text -> [(Text, ([Slot], [Slot]))]
@@ -112,19 +118,23 @@ clearingEntries keyword = case keyword of
   "rest" ->
     own (words' ["of"]) []
       <> [("of", (value Clearing, words' ["step"])), ("step", (value Type.len, []))]
-  "engrave" ->
-    [ (keyword, ([], words' ["at"])),
-      ("at", (value Type.aPoint, words' ["height"])),
-      ("height", (value Type.len, words' ["direction", "around", "align"])),
-      ("direction", (value Type.angle, words' ["align"])),
-      ("around", (value Circle, words' ["inside", "outside", "align"])),
-      ("inside", ([], words' ["align"])),
-      ("outside", ([], words' ["align"])),
-      ("align", (words' ["left", "centre", "right"], []))
-    ]
+  "engrave" -> (keyword, ([], words' ["at"])) : letteringEntries ["direction", "around"]
   _ -> commandEntries keyword
   where
     own follows after = [(keyword, (follows, after))]
+
+-- | The entries of the place of a text; @courses@ are the words for the lines on which it may
+-- stand.
+letteringEntries :: [Text] -> [(Text, ([Slot], [Slot]))]
+letteringEntries courses =
+  [ ("at", (value Type.aPoint, words' ["height"])),
+    ("height", (value Type.len, words' (courses <> ["align"]))),
+    ("direction", (value Type.angle, words' ["align"])),
+    ("around", (value Circle, words' ["inside", "outside", "align"])),
+    ("inside", ([], words' ["align"])),
+    ("outside", ([], words' ["align"])),
+    ("align", (words' ["left", "centre", "right"], []))
+  ]
 
 -- | The entries of a work on holes: its points, and each size after the one before it.
 holeEntries :: HoleWork -> [(Text, ([Slot], [Slot]))]

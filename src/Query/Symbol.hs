@@ -102,6 +102,7 @@ symbol source (Located whole s) = case s of
   LetFunction name parameters _ -> definition Function name (parameterList parameters)
   Contour name _ _ -> definition Contour' name ""
   Drawn _ name _ -> definition Contour' name ""
+  DrawnText name _ _ -> definition Contour' name ""
   Table name _ -> definition Value name "table"
   Curve name _ -> definition Value name "curve"
   Piece name _ _ _ _ -> definition Value name "piece"

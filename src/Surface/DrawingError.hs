@@ -14,10 +14,13 @@ import Data.List.NonEmpty (NonEmpty (..))
 import Data.List.NonEmpty qualified as NonEmpty
 import Data.Text (Text)
 import Data.Text qualified as Text
+import Drawing.FileFormat qualified as FileFormat
 import Geometry.Vec (Point)
 import Geometry.Vec qualified as Vec
 import Report.Report (Label (..), Report (..), ReportPlace (..), Severity (..), at, quote, report)
 import Report.Report qualified as Report
+import Surface.FontError (FontMistake)
+import Surface.FontError qualified as FontError
 
 -- | A mistake in a drawing, or a remark about it.
 data DrawingMistake
@@ -55,6 +58,8 @@ data DrawingMistake
     LeftOut Region Text
   | -- | an entity that is left out because it coincides with another one
     SameEntity Region Region
+  | -- | a mistake in a text with outlines of a font
+    InFont FontMistake
   deriving stock (Eq, Ord, Show)
 
 -- | A gap that was closed: the entities before and after it, its width and its place.
@@ -66,7 +71,11 @@ toReport :: DrawingMistake -> Report
 toReport fault = case fault of
   NotADrawing region name ->
     (at region "E0123" (quote name <> " is no drawing by its name"))
-      { hints = ["The name of a drawing ends in .dxf or .svg."]
+      { hints =
+          [ if FileFormat.isFont name
+              then "A font needs a text: contours sign from \"sans.ttf\" text \"12\" at p height 8"
+              else "The name of a drawing ends in .dxf or .svg."
+          ]
       }
   BadDrawing region title message hints -> (at region "E0123" title) {message, hints}
   BadDistance region ->
@@ -138,6 +147,7 @@ toReport fault = case fault of
     (warning region "W0103" "this coincides with another entity and is left out")
       { others = [Label original "the other one"]
       }
+  InFont mistake -> FontError.toReport mistake
   where
     place = Vec.toText Millimetres 4
     gapText (GapPlace _ _ (Mm d) p) =

@@ -7,6 +7,8 @@ module Surface.DrawnContour
     closure,
     point,
     size,
+    number,
+    call,
   )
 where
 
@@ -122,6 +124,7 @@ number at unit v
 radians :: Region -> Double -> Expr
 radians at = number at (Just Radian)
 
+-- | A call of a function of the language.
 call :: Region -> Text -> [Expr] -> Expr
 call at function arguments = case map Given arguments of
   first : more -> Located at (Call (Located at (Name function)) (first :| more))

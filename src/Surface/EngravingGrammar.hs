@@ -1,9 +1,10 @@
 {-# LANGUAGE RankNTypes #-}
 
--- | The rules of the grammar for engraved texts. They take the rule for expressions from
+-- | The rules of the grammar for texts that are cut. They take the rule for expressions from
 -- "Surface.Grammar".
 module Surface.EngravingGrammar
   ( engraving,
+    lettering,
   )
 where
 
@@ -16,15 +17,18 @@ import Text.Megaparsec qualified as Parsec
 
 -- | An engraving after its keyword: @"12" at p height 8 direction 30 align centre { … }@.
 engraving :: Parser Expr -> (Text -> Parser [Setting]) -> Parser Statement_
-engraving expr settings = Engrave <$> (lettering <?> "a text") <*> settings "engrave"
+engraving expr settings = Engrave <$> (lettering expr <?> "a text") <*> settings "engrave"
+
+-- | A text with its place: @"12" at p height 8 direction 30 align centre@.
+lettering :: Parser Expr -> Parser Lettering
+lettering expr =
+  Lettering <$> onSameLine "a text in quotation marks" text'
+    <*> (keyword "at" *> expr)
+    <*> (keyword "height" *> expr)
+    <*> Parsec.option Level (onThisLine course')
+    <*> Parsec.optional (onThisLine (keyword "align" *> alignment'))
   where
-    lettering =
-      Lettering <$> onSameLine "a text in quotation marks" text'
-        <*> (keyword "at" *> expr)
-        <*> (keyword "height" *> expr)
-        <*> Parsec.option Level (onThisLine course)
-        <*> Parsec.optional (onThisLine (keyword "align" *> alignment))
-    course =
+    course' =
       (keyword "direction" *> (Inclined <$> expr))
         <|> ( keyword "around"
                 *> ( Around <$> expr
@@ -32,7 +36,7 @@ engraving expr settings = Engrave <$> (lettering <?> "a text") <*> settings "eng
                    )
             )
     side = (Outside <$ keyword "outside") <|> (Inside <$ keyword "inside")
-    alignment =
+    alignment' =
       (AlignLeft <$ keyword "left")
         <|> (AlignCentre <$ keyword "centre")
         <|> (AlignRight <$ keyword "right")

@@ -87,8 +87,8 @@ data Error
     ImportTooDeep Region Text Int
   | -- | an import of an input sheet: the name of the file as written
     ImportOfSheet Region Text
-  | -- | a table or a drawing that cannot be read: the word for it, its name as written, the reason,
-    -- and the name of a file that may be meant
+  | -- | a table, a drawing or a font that cannot be read: the word for it, its name as written, the
+    -- reason, and the name of a file that may be meant
     FileMissing Region Text Text Text (Maybe Text)
   | -- | a mistake in a drawing, or a remark about it
     InDrawing DrawingMistake

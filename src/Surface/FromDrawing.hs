@@ -8,6 +8,7 @@ module Surface.FromDrawing
     Converted (..),
     outlinesIn,
     contours,
+    asRegion,
     circleOf,
     tableLines,
   )
@@ -219,7 +220,7 @@ contours text at file asked name (tolerance, chosen) = case asked of
         -- Entities along each other touch at their ends, too.
         | not (null (faults joining)) -> result [] []
         | otherwise -> case Nesting.crossings boundaries of
-          [] -> result [] (asRegion at name contourOf (zip (first : more) boundaries))
+          [] -> result [] (asNested at name contourOf (zip (first : more) boundaries))
           found -> result (map (crossingFault regionOf) found) []
         where
           boundaries = map Nesting.boundary (first : more)
@@ -249,21 +250,34 @@ contours text at file asked name (tolerance, chosen) = case asked of
         (PathPart.start (part (NonEmpty.head (parts o))))
         (PathPart.end (part (NonEmpty.last (parts o))))
 
--- | The contours of some closed outlines with their boundaries, and the region that they bound: the
--- value of the name. An outline within an odd count of others is a hole.
-asRegion ::
+-- | The contours of some closed outlines with their boundaries, and the region that they bound. An
+-- outline within an odd count of others is a hole.
+asNested ::
   Region ->
   Located Name ->
   (Located Name -> Outline -> Statement) ->
   [(Outline, ClosedBoundary)] ->
+  [Statement]
+asNested at name contourOf closed =
+  asRegion at name contourOf (zip (map fst closed) (Nesting.depths (map snd closed)))
+
+-- | The contours of some closed outlines with their depths, and the region that they bound: the
+-- value of the name. Outlines of an even depth add what is inside at least one of them to the
+-- region, those of an odd depth are holes in what the lower depths give. At least one has the depth
+-- 0.
+asRegion ::
+  Region ->
+  Located Name ->
+  (Located Name -> Outline -> Statement) ->
+  [(Outline, Int)] ->
   [Statement]
 asRegion at name contourOf closed =
   zipWith contourOf names (map fst closed)
     <> [Located at (LetValue name (foldl nested (call "region" []) levels))]
   where
     names = [partName name k | k <- [1 .. length closed]]
-    depths = Nesting.depths (map snd closed)
-    levels = [(k, [n | (n, d) <- zip names depths, d == k]) | k <- [0 .. maximum depths]]
+    depths = map snd closed
+    levels = [(k, [n | (n, d) <- zip names depths, d == k]) | k <- [0 .. maximum (0 : depths)]]
     nested around (k, ns) = case k :: Int of
       0 -> call "region" [listOf ns]
       _

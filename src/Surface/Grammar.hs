@@ -29,7 +29,7 @@ import Report.Report (quote)
 import Surface.Combinator
 import Surface.Combinator.Fast (FastParser)
 import Surface.Combinator.Fast qualified as FastCombinator
-import Surface.DrawingGrammar (drawingReference, fromFile)
+import Surface.DrawingGrammar (allOutlines, drawingReference, fromFile)
 import Surface.EngravingGrammar (engraving)
 import Surface.Error (Enclosure (..))
 import Surface.HoleForm qualified as HoleForm
@@ -91,7 +91,7 @@ statementForms =
     ("let", definition),
     ("param", Param <$> name <* symbol "=" <*> expr),
     ("contour", contour),
-    ("contours", Drawn AllOutlines <$> name <* keyword "from" <*> drawingReference number),
+    ("contours", allOutlines number expr),
     ("table", Table <$> name <*> lines'),
     ("curve", Curve <$> name <* symbol "=" <*> expr),
     ("piece", piece),

@@ -11,6 +11,7 @@ module Surface.Import
   )
 where
 
+import Base.Name (Name)
 import Base.Name qualified as Name
 import Base.Quantity (LengthUnit, Mm)
 import Base.Region (Located (..), Region, Source)
@@ -27,14 +28,19 @@ import Data.Text (Text)
 import Data.Text qualified as Text
 import Data.Text.Encoding qualified as Encoding
 import Drawing.Drawing (Entity)
+import Drawing.FileFormat qualified as FileFormat
 import Surface.Csv qualified as Csv
+import Surface.DrawingError (DrawingMistake (InFont))
 import Surface.Error (Error (..))
 import Surface.FileUnit qualified as FileUnit
+import Surface.FontError (FontMistake (NotAFont))
 import Surface.FromDrawing (Converted (..), DrawingText (drawing))
 import Surface.FromDrawing qualified as FromDrawing
+import Surface.FromFont qualified as FromFont
 import Surface.Parser qualified as Parser
 import Surface.Syntax
   ( DrawingReference (..),
+    Lettering,
     Lines (..),
     Program (..),
     Statement,
@@ -197,7 +203,34 @@ replaceImports reader chain = fmap concat . mapM replace
         made <- fromDrawing reader chain part $ \text nameAt chosen ->
           FromDrawing.contours text region nameAt asked name chosen
         pure (fromMaybe [Located region (Broken (Just "contour") (Just name))] made)
+      Located region (DrawnText name font text) -> do
+        made <- fromFont reader chain region name font text
+        pure (fromMaybe [Located region (Broken (Just "contours") (Just name))] made)
       _ -> pure [s]
+
+-- | The statements in place of a text in a font. Records mistakes; 'Nothing' if there are any.
+fromFont ::
+  Monad m =>
+  Reader m ->
+  Chain ->
+  Region ->
+  Located Name ->
+  Located Text ->
+  Lettering ->
+  StateT Progress m (Maybe [Statement])
+fromFont reader chain region name font@(Located at file) text = do
+  path <- namedPath chain at file
+  content <- lift (bytes reader path)
+  case content of
+    _ | not (FileFormat.isFont file) -> mistakes' [NotAFont at file]
+    Left reason -> do
+      near <- lift (neighbour reader path file [".ttf", ".otf", ".ttc"] [])
+      Nothing <$ modify' (\p -> p {found = FileMissing at "font" file reason near : found p})
+    Right content' -> case FromFont.statements region name font text content' of
+      Left faults -> mistakes' faults
+      Right made -> pure (Just made)
+  where
+    mistakes' faults = recorded (Converted (map InFont faults) [] Nothing)
 
 -- | Result of @make@ for a part of a drawing, from the drawing, the region of the name of its
 -- file, the distance of ends that are joined, and the chosen entities. Records mistakes and
@@ -389,6 +422,7 @@ isDefinition (Located _ s) = case s of
   Param _ _ -> True
   Contour {} -> True
   Drawn {} -> True
+  DrawnText {} -> True
   Table _ _ -> True
   Curve _ _ -> True
   Piece {} -> True

@@ -122,6 +122,8 @@ statement comments indent (Located _ s) = case s of
       (concatMap (item comments (indent + 2)) items)
   Drawn outlines (Located _ (Name name)) part ->
     plain (spaced (Text (drawnWord outlines <> " " <> name) : drawingReference comments part))
+  DrawnText (Located _ (Name name)) (Located _ font) text ->
+    plain (lettering comments ("contours " <> name <> " from " <> quoted font <> " text") text)
   Table (Located _ (Name name)) (LinesFromDrawing part) ->
     plain (spaced (Text ("table " <> name) : drawingReference comments part))
   Table (Located _ (Name name)) (LinesFromFile (Located _ file)) ->
@@ -144,7 +146,7 @@ statement comments indent (Located _ s) = case s of
     clearing (spaced [Text "rest of", value e, Text "step", value step]) settings
   Face e step settings ->
     clearing (spaced [Text "face", value e, Text "step", value step]) settings
-  Engrave text settings -> clearing (lettering comments text) settings
+  Engrave text settings -> clearing (lettering comments "engrave" text) settings
   Vcarve e settings -> clearing (spaced [Text "vcarve", value e]) settings
   Turn e side settings -> machining "turn" e side settings
   Drill at depth settings ->
@@ -366,11 +368,11 @@ heights comments zs =
   where
     value = PrintExpression.value comments
 
--- | An engraved text, without its settings.
-lettering :: CommentPositions -> Lettering -> Doc
-lettering comments (Lettering (Located _ text) at height course alignment) =
+-- | A text with its place, after the words before it.
+lettering :: CommentPositions -> Text -> Lettering -> Doc
+lettering comments words' (Lettering (Located _ text) at height course alignment) =
   spaced $
-    [Text ("engrave " <> quoted text <> " at"), value at, Text "height", value height]
+    [Text (words' <> " " <> quoted text <> " at"), value at, Text "height", value height]
       <> case course of
         Level -> []
         Inclined e -> [Text "direction", value e]

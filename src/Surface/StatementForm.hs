@@ -134,7 +134,10 @@ statementForms =
     ("let", "let a = 5 mm, or for a function let f(x) = 2 * x"),
     ("param", "param a = 5 mm"),
     ("contour", "contour edge closed { … }, or open instead of closed"),
-    ("contours", "contours parts from \"plate.dxf\" layer \"CUT\""),
+    ( "contours",
+      "contours parts from \"plate.dxf\" layer \"CUT\", \
+      \or contours sign from \"sans.ttf\" text \"12\" at (10, 20) height 8"
+    ),
     ( "table",
       "table points { … }, with a line of names such as x y, and below it a row for each point"
     ),

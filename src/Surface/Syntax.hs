@@ -132,6 +132,8 @@ data Statement_
   | -- | @contour edge from "stand.dxf" layer "CUT"@: one outline of a drawing, and
     -- @contours parts from "stand.dxf" layer "CUT"@: all of them, as a region
     Drawn DrawnOutlines (Located Name) DrawingReference
+  | -- | @contours sign from "sans.ttf" text "12" at p height 8@: the name, the file of the font
+    DrawnText (Located Name) (Located Text) Lettering
   | -- | @table profile { x y … }@ and @table profile from "profile.csv"@
     Table (Located Name) Lines
   | -- | @curve skin = spline(profile)@
@@ -203,7 +205,7 @@ data HoleWork
 data HoleSize = HoleDiameter | HoleDepth | HolePitch | HoleAngle
   deriving stock (Eq, Show, Enum, Bounded)
 
--- | A text to be engraved: the text in quotation marks, the point to which it is aligned, and the
+-- | A text to be cut: the text in quotation marks, the point to which it is aligned, and the
 -- height of its capitals.
 data Lettering = Lettering
   { lettered :: Located Text,

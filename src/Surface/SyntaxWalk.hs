@@ -56,6 +56,7 @@ definedName s = case s of
   Param n _ -> Just n
   Contour n _ _ -> Just n
   Drawn _ n _ -> Just n
+  DrawnText n _ _ -> Just n
   Table n _ -> Just n
   Curve n _ -> Just n
   Piece n _ _ _ _ -> Just n
@@ -77,7 +78,7 @@ itemsIn i =
     Choose _ body others -> concatMap itemsIn (body <> others)
     BrokenItem _ -> []
 
--- | The expressions of an engraved text that are not parts of other expressions.
+-- | The expressions of a text that is cut that are not parts of other expressions.
 ofLettering :: Lettering -> [Expr]
 ofLettering Lettering {textPoint, textHeight, course} =
   textPoint :
@@ -110,6 +111,7 @@ ofStatement (Located _ s) = case s of
   Param _ e -> [e]
   Contour _ _ items -> concatMap ofItem items
   Drawn _ _ part -> maybeToList (joinedWithin part)
+  DrawnText _ _ text -> ofLettering text
   Table _ (WrittenLines ls) -> concatMap ofLine ls
   Table _ (LinesFromFile _) -> []
   Table _ (LinesFromDrawing part) -> maybeToList (joinedWithin part)

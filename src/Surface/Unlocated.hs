@@ -59,6 +59,7 @@ statement s = case s of
   Param name e -> Param (here name) (expr e)
   Contour name closure items -> Contour (here name) (here closure) (map (unlocated item) items)
   Drawn outlines name part -> Drawn outlines (here name) (drawingReference part)
+  DrawnText name font text -> DrawnText (here name) (here font) (lettering text)
   Table name ls -> Table (here name) (lines' ls)
   Curve name e -> Curve (here name) (expr e)
   Piece name e cs side joggles ->

@@ -204,6 +204,7 @@ statement n = at (frequency ([(1, s) | s <- simple] <> [(3, s) | n > 0, s <- dee
         Table <$> at name <*> (LinesFromFile <$> at title),
         Table <$> at name <*> (LinesFromDrawing <$> drawingReference),
         Drawn <$> elements [OneOutline, AllOutlines] <*> at name <*> drawingReference,
+        DrawnText <$> at name <*> at ((<> ".ttf") <$> title) <*> lettering n,
         Curve <$> at name <*> expr (n + 1),
         Piece
           <$> at name
@@ -273,7 +274,7 @@ statement n = at (frequency ([(1, s) | s <- simple] <> [(3, s) | n > 0, s <- dee
           expr (n + 1)
         ]
 
--- | A text to be engraved.
+-- | A text that is cut.
 lettering :: Int -> Gen Lettering
 lettering n =
   Lettering

@@ -102,6 +102,10 @@ words' = do
     labels "part p\ncontour a ^" `shouldBe` ["closed", "open", "from"]
     labels "part p\ncontours a ^" `shouldBe` ["from"]
     labels "part p\ntable t from \"a.dxf\" ^" `shouldBe` ["layer", "id", "class", "unit", "within"]
+    labels "part p\ncontours t from \"a.ttf\" ^"
+      `shouldBe` ["text", "layer", "id", "class", "unit", "within"]
+    labels "part p\ncontours t from \"a.ttf\" text \"A\" at (0, 0) height 8 mm ^"
+      `shouldBe` ["direction", "align"]
     labels "part p\nspindle ^" `shouldBe` ["cw", "ccw", "off", "manual"]
     labels "part p\nlet v = 180 m/min\nspindle cw v ^" `shouldBe` ["limit"]
     labels "part p\noptional ^" `shouldBe` ["stop"]

@@ -16,7 +16,8 @@ syntax match partStatement /^\s*\zs\<\(pocket\|face\|vcarve\|work\|program\|safe
 syntax match partStatement /^\s*\zs\<rest\s\+of\ze\s/
 syntax match partStatement /^\s*\zs\<engrave\ze\s\+"/
 syntax match partStatement /\(^\s*engrave\s\+"[^"]*"\s\+\)\@<=at\>/
-syntax match partStatement /\(^\s*engrave\s.*\)\@<=\<\(height\|direction\|around\|align\|centre\)\>/
+syntax match partStatement /\(^\s*contours\s.*\<text\s\+"[^"]*"\s\+\)\@<=at\>/
+syntax match partStatement /\(^\s*\(engrave\|contours\)\s.*\)\@<=\<\(height\|direction\|around\|align\|centre\)\>/
 syntax match partStatement /\(^\s*pocket\s.*\)\@<=\<as\ze\s/
 syntax match partStatement /^\s*\zs\<\(optional\s\+\)\?stop\ze\s*\(--.*\)\?$/
 syntax match partStatement /\(\<spindle\s\+\)\@<=manual\>/
@@ -24,7 +25,7 @@ syntax match partStatement /\(^\s*spindle\s.*\)\@<=\<limit\>/
 syntax match partStatement /\(\<change\>.*)\s*\)\@<=at\>/
 syntax match partStatement /\(^\s*dwell\s.*\)\@<=\<s\ze\s*\(--.*\)\?$/
 syntax match partStatement /\(^\s*\(stock\|avoid\)\s.*\<from\>.*\)\@<=\<to\>/
-syntax match partStatement /\(^\s*\(contours\?\|table\)\s.*\<from\s*".*\)\@<=\<\(layer\|id\|class\|unit\)\ze\s/
+syntax match partStatement /\(^\s*\(contours\?\|table\)\s.*\<from\s*".*\)\@<=\<\(layer\|id\|class\|unit\|text\)\ze\s/
 syntax match partCutter /\(,\s*\)\@<=\(flutes\|stickout\|holder\|angle\|pitch\)\ze\s\+[(-]\?\k/
 syntax match partCutter /\(,\s*holder\s\([^,()]\|([^()]*)\)*\)\@<=\<height\ze\s/
 syntax match partCutter /\(\<\(turn\|vbit\)(.*,\s*\)\@<=tip\>/

@@ -38,7 +38,7 @@
   "peck" "islands" "rest" "allowed" "angle" "of" "as"
   "diameter" "nose" "cone" "vbit" "blade" "height" "gear" "flutes" "stickout" "holder" "tip"
   "manual" "limit" "s" "chip" "break" "pitch" "angle" "hand" "threadmill"
-  "direction" "around" "align" "centre"
+  "direction" "around" "align" "centre" "text"
 ] @keyword
 (floating) @keyword
 (climb) @keyword

@@ -1,0 +1,108 @@
+-- | Outlines of texts at their places in the part.
+module Part.TextPlaceSpec (spec) where
+
+import Base.Decimal qualified as Decimal
+import Base.Name (Name (..))
+import Base.Quantity (Mm (..), Rad (..))
+import Base.Region (Located (..))
+import Base.Result qualified as Result
+import Compile (Analysis (Analysis, part))
+import Compile qualified
+import Data.ByteString (ByteString)
+import Data.ByteString qualified as ByteString
+import Data.Functor.Identity (runIdentity)
+import Data.List.NonEmpty qualified as NonEmpty
+import Data.Maybe (catMaybes)
+import Data.Text (Text)
+import Data.Text qualified as Text
+import Drawing.PathPart qualified as PathPart
+import Font.TextOutline (TextOutline (..))
+import Font.TextOutline qualified as TextOutline
+import Font.TrueType (GlyphRun (..))
+import Font.TrueType qualified as TrueType
+import Geometry.Segment qualified as Segment
+import Geometry.Vec (Point)
+import Geometry.Vec qualified as Vec
+import Part.Part qualified as Part
+import Project.LoadedProgram (LoadedProgram)
+import Project.LoadedProgram qualified as LoadedProgram
+import Report.Report qualified as Report
+import Surface.Import qualified as Import
+import Test.Hspec
+import Test.Hspec.QuickCheck (modifyMaxSuccess, prop)
+import Test.QuickCheck
+
+spec :: Spec
+spec = modifyMaxSuccess (const 60) $ do
+  font <- runIO (ByteString.readFile "test/data/fonts/quadratic.ttf")
+  prop "letters stand at their point, turned and scaled (catches letters turned the other way)" $
+    forAll (Text.pack <$> listOf1 (elements "HOAVC+Ф")) $ \text ->
+      forAll ((,) <$> hundredths 1 40 <*> hundredths 0 360) $ \(size, turned) ->
+        forAll ((,) <$> hundredths (-50) 50 <*> hundredths (-50) 50) $ \p ->
+          forAll (elements [("", 0), ("align centre", 0.5), ("align right", 1)]) $ \(word, share) ->
+            let statement = statementOf text size turned p word
+                outcome = Compile.analyse [] (loaded font statement)
+                expected = placed font text size turned p share
+             in counterexample (Text.unpack statement) $ case Result.ifSound outcome of
+                  Just Analysis {part} ->
+                    conjoin
+                      [counterexample (show q) (any (isNear q) (startsIn part)) | q <- expected]
+                  Nothing ->
+                    counterexample (show (map Report.title (Result.errors outcome))) False
+  where
+    hundredths :: Int -> Int -> Gen Double
+    hundredths low high = (/ 100) . fromIntegral <$> chooseInt (100 * low, 100 * high)
+    isNear a b = Vec.distance a b <= Mm 1e-9
+
+-- | The statement for a text, a height, a direction in degrees, a point and an alignment.
+statementOf :: Text -> Double -> Double -> (Double, Double) -> Text -> Text
+statementOf text size turned (x, y) word =
+  Text.unwords
+    [ "contours sign from \"quadratic.ttf\" text \"" <> text <> "\" at",
+      "(" <> number x <> ", " <> number y <> ") height " <> number size,
+      "direction " <> number turned,
+      word
+    ]
+  where
+    number = Decimal.short 2
+
+-- | The points at which parts of the outlines of a text begin.
+placed :: ByteString -> Text -> Double -> Double -> (Double, Double) -> Double -> [Point]
+placed font text size turned (x, y) share = case TrueType.glyphs font text of
+  Left _ -> []
+  Right run ->
+    [ Vec.shift (Vec.rotate (Rad (turned * pi / 180)) (Vec.to (Vec.point 0 0) q)) (Vec.point x y)
+      | o <- TextOutline.outlines 700 (Mm size) share (catMaybes (characterGlyphs run)),
+        q <- map PathPart.start (NonEmpty.toList (path o))
+    ]
+
+-- | The points at which the segments of the contours of the text begin.
+startsIn :: Part.Part -> [Point]
+startsIn part =
+  [ Segment.start (Part.segment e)
+    | c <- Part.contours part,
+      let Name name = value (Part.contourName c),
+      "sign " `Text.isPrefixOf` name,
+      e <- NonEmpty.toList (Part.elements c)
+  ]
+
+-- | A program with a statement, beside a font.
+loaded :: ByteString -> Text -> LoadedProgram
+loaded font statement = runIdentity (LoadedProgram.load reader "t.part" whole)
+  where
+    reader =
+      (Import.byName (const (pure (Left "it imports nothing"))))
+        { Import.bytes = const (pure (Right font))
+        }
+    whole =
+      Text.unlines
+        [ "part t",
+          "tool 1 mill(diameter 0.5)",
+          "feed 60",
+          "tolerance 0.01",
+          "clearance 2",
+          "from (0, 0, 2)",
+          "spindle cw 900",
+          statement,
+          "engrave \"I\" at (0, 0) height 5 { depth 0.3 }"
+        ]
