@@ -39,6 +39,7 @@
   "diameter" "nose" "cone" "vbit" "blade" "height" "gear" "flutes" "stickout" "holder" "tip"
   "manual" "limit" "s" "chip" "break" "pitch" "angle" "hand" "threadmill"
   "direction" "around" "align" "centre" "text"
+  "layer" "id" "class" "unit"
 ] @keyword
 (floating) @keyword
 (climb) @keyword
