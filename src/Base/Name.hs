@@ -1,6 +1,8 @@
 -- | Names of a part program, and suggestions for misspelt ones.
 module Base.Name
   ( Name (..),
+    hidden,
+    isHidden,
     nearest,
     lookAlike,
   )
@@ -16,6 +18,14 @@ import Data.Text qualified as Text
 newtype Name = Name {text :: Text}
   deriving newtype (Eq, Ord, IsString)
   deriving stock (Show)
+
+-- | A name that no program can write, of something that belongs to the name @owner@.
+hidden :: Name -> Text -> Name
+hidden (Name owner) word = Name (owner <> " " <> word)
+
+-- | True for the names that 'hidden' makes.
+isHidden :: Name -> Bool
+isHidden (Name name) = Text.any (== ' ') name
 
 -- | The candidates that the user may have meant by the misspelt name @wanted@, nearest first. Their
 -- edit distance from it is at most a third of its length. Upper and lower case count as the same

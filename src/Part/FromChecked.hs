@@ -9,6 +9,7 @@ where
 
 import Base.Crash (bug)
 import Base.Name (Name (..))
+import Base.Name qualified as Name
 import Base.Quantity (LengthUnit, Mm (..))
 import Base.Region (Located (..), Region)
 import Base.Result (Result (..))
@@ -364,7 +365,11 @@ statementSteps = 5
 define :: State -> Located Name -> Dimension -> Value -> State
 define state name d v =
   (withEnvironment state env')
-    { readings' = (region name, Expression.written (Expression.textUnit env) d v) : readings' state,
+    { readings' =
+        [ (region name, Expression.written (Expression.textUnit env) d v)
+          | not (Name.isHidden (value name))
+        ]
+          <> readings' state,
       fittings' =
         [(name, f) | CurveValue PartCurve {fitting = Just f} <- [v]] <> fittings' state,
       namedPoints' = [(name, p) | Just p <- [pointOf v]] <> namedPoints' state

@@ -11,6 +11,7 @@ module Query.Symbol
 where
 
 import Base.Name (Name (..))
+import Base.Name qualified as Name
 import Base.Region (Located (..), Region (..), Source)
 import Base.Region qualified as Region
 import Data.List.NonEmpty (NonEmpty)
@@ -102,7 +103,6 @@ symbol source (Located whole s) = case s of
   LetFunction name parameters _ -> definition Function name (parameterList parameters)
   Contour name _ _ -> definition Contour' name ""
   Drawn _ name _ -> definition Contour' name ""
-  DrawnText name _ _ -> definition Contour' name ""
   Table name _ -> definition Value name "table"
   Curve name _ -> definition Value name "curve"
   Piece name _ _ _ _ -> definition Value name "piece"
@@ -122,6 +122,8 @@ symbol source (Located whole s) = case s of
   When condition _ _ -> machining (region condition) (region condition)
   With placement _ -> machining (region placement) (region placement)
   Broken _ name -> name >>= \n -> definition Value n ""
+  -- The region of its outlines stands below it, with the same name.
+  DrawnText {} -> Nothing
   Machine _ -> Nothing
   Units _ -> Nothing
   Import _ -> Nothing
@@ -143,8 +145,9 @@ symbol source (Located whole s) = case s of
   OptionalStop -> Nothing
   Dwell _ -> Nothing
   where
-    definition kind (Located selection (Name name)) detail =
-      Just DocumentSymbol {name, detail, kind, whole, selection, children}
+    definition kind (Located selection symbolName@(Name name)) detail
+      | Name.isHidden symbolName = Nothing
+      | otherwise = Just DocumentSymbol {name, detail, kind, whole, selection, children}
     machining lastRegion selection =
       Just
         DocumentSymbol

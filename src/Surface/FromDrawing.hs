@@ -16,6 +16,7 @@ where
 
 import Base.Decimal qualified as Decimal
 import Base.Name (Name (..))
+import Base.Name qualified as Name
 import Base.Quantity (LengthUnit (..), Mm (..), millimetresIn, times)
 import Base.Region (Located (..), Region (Region))
 import Base.Region qualified as Region
@@ -288,9 +289,9 @@ asRegion at name contourOf closed =
       first : more -> Located at (Call (Located at (Name function)) (first :| more))
       [] -> Located at (List [])
 
--- | The name of one of several outlines. With its blank, it is no name that a program can write.
+-- | The hidden name of one of several outlines.
 partName :: Located Name -> Int -> Located Name
-partName (Located at (Name name)) k = Located at (Name (name <> " " <> Decimal.whole k))
+partName (Located at name) k = Located at (Name.hidden name (Decimal.whole k))
 
 -- | The mistake of a fault of the outlines.
 joinFault :: (Entity -> Region) -> JoinFault -> DrawingMistake

@@ -49,7 +49,7 @@ module Checked.Inference.State
   )
 where
 
-import Base.Name (Name)
+import Base.Name (Name (Name))
 import Base.Name qualified as Name
 import Base.Region (Located (..), Region)
 import Checked.Dimension (Dimension)
@@ -231,10 +231,11 @@ withLocals locals infer = scoped (mapM_ defineLocal locals *> infer)
       define name (Local at t) *> mention at (Just at) (Name.text name) (Valued t)
 
 -- | Records a mention of the name @word@ at @region@, for editors. @definition@ is the region of
--- its definition, or 'Nothing' for a built-in name.
+-- its definition, or 'Nothing' for a built-in name. Hidden names are not recorded.
 mention :: Region -> Maybe Region -> Text -> Meaning -> Infer ()
 mention region definition word meaning =
-  modify' (\s -> s {mentioned = (region, definition, word, meaning) : mentioned s})
+  unless (Name.isHidden (Name word)) . modify' $
+    (\s -> s {mentioned = (region, definition, word, meaning) : mentioned s})
 
 -- Unknowns
 
