@@ -78,7 +78,7 @@ data FontFault
 
 -- | The largest size of a font file in bytes.
 mostBytes :: Int
-mostBytes = 64 * 1024 * 1024
+mostBytes = 32 * 1024 * 1024
 
 -- | The largest count of characters of a text.
 mostCharacters :: Int

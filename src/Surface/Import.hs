@@ -105,6 +105,8 @@ data Progress = Progress
     -- | the drawings read so far, by their paths and the units that statements give them; Nothing
     -- for one with a mistake
     drawings :: Map (FilePath, Maybe LengthUnit) (Maybe DrawingText),
+    -- | the bytes of the fonts read so far, by their paths
+    fonts :: Map FilePath ByteString,
     -- | the regions of the names of imported files and table files, with the paths of these files,
     -- the newest first
     named :: [(Region, Text)],
@@ -125,6 +127,7 @@ load reader path text = do
             found = [],
             noted = [],
             drawings = Map.empty,
+            fonts = Map.empty,
             named = [],
             unitsFound = Map.empty
           }
@@ -220,17 +223,33 @@ fromFont ::
   StateT Progress m (Maybe [Statement])
 fromFont reader chain region name font@(Located at file) text = do
   path <- namedPath chain at file
-  content <- lift (bytes reader path)
+  content <- if FileFormat.isFont file then Just <$> fontBytes reader path else pure Nothing
   case content of
-    _ | not (FileFormat.isFont file) -> mistakes' [NotAFont at file]
-    Left reason -> do
+    Nothing -> mistakes' [NotAFont at file]
+    Just (Left reason) -> do
       near <- lift (neighbour reader path file [".ttf", ".otf", ".ttc"] [])
       Nothing <$ modify' (\p -> p {found = FileMissing at "font" file reason near : found p})
-    Right content' -> case FromFont.statements region name font text content' of
+    Just (Right content') -> case FromFont.statements region name font text content' of
       Left faults -> mistakes' faults
       Right made -> pure (Just made)
   where
     mistakes' faults = recorded (Converted (map InFont faults) [] Nothing)
+
+-- | The bytes of a font, or the reason why it cannot be read. A font that is read becomes a text of
+-- the source, so that an editor can load the program again.
+fontBytes :: Monad m => Reader m -> FilePath -> StateT Progress m (Either Text ByteString)
+fontBytes reader path = do
+  known <- gets (Map.lookup path . fonts)
+  content <- maybe (lift (bytes reader path)) (pure . Right) known
+  case (known, content) of
+    (Nothing, Right content') ->
+      modify' $ \p ->
+        p
+          { texts = Region.addFile (Text.pack path) (Encoding.decodeLatin1 content') (texts p),
+            fonts = Map.insert path content' (fonts p)
+          }
+    _ -> pure ()
+  pure content
 
 -- | Result of @make@ for a part of a drawing, from the drawing, the region of the name of its
 -- file, the distance of ends that are joined, and the chosen entities. Records mistakes and
