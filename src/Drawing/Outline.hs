@@ -33,7 +33,7 @@ import Geometry.Distance qualified as Distance
 import Geometry.Index.BoundingBox qualified as BoundingBox
 import Geometry.Index.BoxTree qualified as BoxTree
 import Geometry.Polyarc (Ends (..))
-import Geometry.Segment (Segment (Straight))
+import Geometry.Segment (Segment)
 import Geometry.Segment qualified as Segment
 import Geometry.Vec (Point)
 import Geometry.Vec qualified as Vec
@@ -213,7 +213,7 @@ withoutGaps (ends, chains) =
   where
     list = sconcat (fmap links chains)
     following = NonEmpty.tail list <> [NonEmpty.head list | ends == Closed]
-    joints = [(a, b, jointOf (part a) (part b)) | (a, b) <- zip (NonEmpty.toList list) following]
+    joints = [(a, b, PathPart.joint (part a) (part b)) | (a, b) <- zip (NonEmpty.toList list) following]
     places = [p | (_, _, p) <- joints]
     ownStart = PathPart.start (part (NonEmpty.head list))
     ownEnd = PathPart.end (part (NonEmpty.last list))
@@ -221,22 +221,6 @@ withoutGaps (ends, chains) =
     starts = begin :| places
     stops = foldr NonEmpty.cons (ownEnd :| []) places
     between (p, q) l = fmap (\moved -> l {part = moved}) (PathPart.withEnds p q (part l))
-
--- | The joint between the end of a part and the start of the next one. Ends that count as the same
--- meet at the end of a line, whose numbers are those of the file. Otherwise the joint of a line and
--- another part lies at the end of the other part, and that of two lines in the middle of the gap.
-jointOf :: PathPart -> PathPart -> Point
-jointOf a b
-  | p == q = p
-  | Vec.distance p q <= Tolerance.same = if isLine b && not (isLine a) then q else p
-  | not (isLine a) = p
-  | not (isLine b) = q
-  | otherwise = Vec.shift (Vec.scale 0.5 (Vec.to p q)) p
-  where
-    (p, q) = (PathPart.end a, PathPart.start b)
-    isLine x = case x of
-      Plain (Straight _ _) -> True
-      _ -> False
 
 -- Entities that coincide --------------------------------------------------------------------------
 

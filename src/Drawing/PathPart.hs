@@ -5,6 +5,8 @@ module Drawing.PathPart
     middlePoint,
     reversed,
     withEnds,
+    joint,
+    meeting,
     ellipseCurves,
     segments,
   )
@@ -13,6 +15,7 @@ where
 import Base.Quantity (Rad (..))
 import Data.List.NonEmpty (NonEmpty (..))
 import Data.List.NonEmpty qualified as NonEmpty
+import Data.Semigroup (sconcat)
 import Data.Vector qualified as Vector
 import Drawing.Drawing (Ellipse (..), PathPart (..), Spline (..), ellipsePoint)
 import Drawing.OutlineTolerance qualified as Tolerance
@@ -20,6 +23,7 @@ import Geometry.ArcFitting.CurveFit qualified as CurveFit
 import Geometry.Curve qualified as Curve
 import Geometry.Curve.Bezier qualified as Bezier
 import Geometry.MeasuredPolyarc qualified as MeasuredPolyarc
+import Geometry.Polyarc (Ends (..))
 import Geometry.Segment (Segment (Arc, Straight))
 import Geometry.Segment qualified as Segment
 import Geometry.Tolerance qualified as Tolerance
@@ -68,7 +72,8 @@ reversed part = case part of
 
 -- | Parts from one point to another instead of a part whose ends are near to these points. A line
 -- stays a line. An arc keeps its sweep, and its centre if only rounding moves its ends. Curves move
--- their first and last control points. A part of an ellipse becomes Bézier curves.
+-- their first and last control points. A part of an ellipse stays as it is if only rounding would
+-- move its ends, and becomes Bézier curves otherwise.
 withEnds :: Point -> Point -> PathPart -> NonEmpty PathPart
 withEnds p q part
   | p == start part && q == end part = part :| []
@@ -79,7 +84,9 @@ withEnds p q part
     Plain s -> Plain (Segment.fromBulge p q (Segment.bulge s)) :| []
     Bezier ps weights -> Bezier (between ps) weights :| []
     BSpline s -> BSpline s {controls = between (controls s)} :| []
-    EllipseArc e from to -> moved (ellipseCurves e from to)
+    EllipseArc e from to
+      | isRounding p (start part) && isRounding q (end part) -> part :| []
+      | otherwise -> moved (ellipseCurves e from to)
   where
     moved parts = case parts of
       only :| [] -> withEnds p q only
@@ -92,6 +99,40 @@ withEnds p q part
     between ps = case NonEmpty.toList ps of
       _ : more@(_ : _) -> p :| (init more <> [q])
       _ -> p :| [q]
+
+-- | The joint between the end of a part and the start of the next one. Ends that count as the same
+-- meet at the end of a line, whose numbers are those of the file. Otherwise the joint of a line and
+-- another part lies at the end of the other part, and that of two lines in the middle of the gap.
+joint :: PathPart -> PathPart -> Point
+joint a b
+  | p == q = p
+  | Vec.distance p q <= Tolerance.same = if isLine b && not (isLine a) then q else p
+  | not (isLine a) = p
+  | not (isLine b) = q
+  | otherwise = Vec.shift (Vec.scale 0.5 (Vec.to p q)) p
+  where
+    (p, q) = (end a, start b)
+
+-- | Parts whose ends count as the same, moved so that each begins exactly where the one before it
+-- ends. Of two parts that meet, a line moves rather than another part, and the earlier one of two
+-- lines.
+meeting :: Ends -> NonEmpty PathPart -> NonEmpty PathPart
+meeting ends parts = sconcat (NonEmpty.zipWith between (NonEmpty.zip starts stops) parts)
+  where
+    following = NonEmpty.tail parts <> [NonEmpty.head parts | ends == Closed]
+    places = zipWith place (NonEmpty.toList parts) following
+    begin = case reverse places of
+      back : _ | ends == Closed -> back
+      _ -> start (NonEmpty.head parts)
+    starts = begin :| places
+    stops = foldr NonEmpty.cons (end (NonEmpty.last parts) :| []) places
+    between (p, q) = withEnds p q
+    place a b = if isLine a then start b else end a
+
+isLine :: PathPart -> Bool
+isLine part = case part of
+  Plain (Straight _ _) -> True
+  _ -> False
 
 -- | Part of an ellipse from one parameter in radians to another, as Bézier curves
 -- ("Geometry.Curve.Bezier").

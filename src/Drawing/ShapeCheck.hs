@@ -7,12 +7,16 @@ module Drawing.ShapeCheck
 where
 
 import Base.Quantity (Mm (..), Rad (..))
+import Data.Foldable (toList)
 import Data.List.NonEmpty (NonEmpty (..))
 import Data.List.NonEmpty qualified as NonEmpty
 import Data.Text (Text)
 import Drawing.Drawing (Ellipse (..), PathPart (..), Shape (..), Spline (..))
+import Drawing.OutlineTolerance qualified as OutlineTolerance
+import Drawing.PathPart qualified as PathPart
 import Drawing.Tolerance qualified as Tolerance
 import Geometry.Carrier (Circle (Circle))
+import Geometry.Polyarc (Ends (..))
 import Geometry.Segment (Segment (..))
 import Geometry.Segment qualified as Segment
 import Geometry.Tolerance (reach)
@@ -21,7 +25,7 @@ import Geometry.Vec qualified as Vec
 
 -- | The judgement of a shape.
 data Judgement
-  = -- | the shape without parts of length 0, and with lines in place of arcs that are flat
+  = -- | the shape without parts that count as points, and with lines in place of arcs that are flat
     Usable Shape
   | -- | the reason why the shape is no curve
     Degenerate Text
@@ -43,9 +47,7 @@ judge shape = case shape of
   Path ends parts
     | not (all isNearPiece straightened) -> TooFar
     | any isCollapsed straightened -> Degenerate "a semi-axis is 0"
-    | otherwise -> case NonEmpty.filter (not . isPoint) straightened of
-      first : rest -> Usable (Path ends (first :| rest))
-      [] -> Degenerate "its length is 0"
+    | otherwise -> maybe (Degenerate "its length is 0") Usable (withoutPoints ends straightened)
     where
       straightened = fmap withoutFlatArc parts
 
@@ -90,14 +92,41 @@ isNearPiece part = case part of
   Bezier points _ -> all isNear points
   BSpline s -> all isNear (controls s)
 
--- | True of a part that is a point.
+-- | The path without the parts that stay within 'OutlineTolerance.same' of the end of the part
+-- before them. The sums of relative coordinates leave such parts, as a line by which a path returns
+-- to its start. The parts beside one that is left out are moved so that they meet. A path whose ends
+-- are that near to each other is closed. Nothing if no part is left.
+withoutPoints :: Ends -> NonEmpty PathPart -> Maybe Shape
+withoutPoints ends parts = case longer (PathPart.start (NonEmpty.head parts)) (toList parts) of
+  [] -> Nothing
+  first : rest
+    | length rest + 1 == length parts && really == ends -> Just (Path ends parts)
+    | otherwise -> Just (Path really (PathPart.meeting really kept))
+    where
+      kept = first :| rest
+      isBack = not (null rest) && isSame (PathPart.start first) (PathPart.end (NonEmpty.last kept))
+      really = if isBack then Closed else ends
+  where
+    longer before list = case list of
+      [] -> []
+      p : more
+        | isPoint p && isSame before (PathPart.end p) -> longer before more
+        | otherwise -> p : longer (PathPart.end p) more
+
+-- | True of a part whose length is at most 'OutlineTolerance.same'.
 isPoint :: PathPart -> Bool
 isPoint part = case part of
-  Plain (Straight a b) -> a == b
-  Plain Arc {start, centre, sweep} -> start == centre || sweep == Rad 0
-  EllipseArc _ from to -> from == to
-  Bezier (first :| rest) _ -> all (== first) rest
-  BSpline s -> let first :| rest = controls s in all (== first) rest
+  Plain (Straight a b) -> isSame a b
+  Plain Arc {start, centre, sweep = Rad s} -> isShort (Segment.radius centre start) s
+  EllipseArc e from to -> isShort (major e) (to - from)
+  Bezier (first :| rest) _ -> all (isSame first) rest
+  BSpline s -> let first :| rest = controls s in all (isSame first) rest
+  where
+    isShort (Mm r) angle = Mm (r * abs angle) <= OutlineTolerance.same
+
+-- | True of two points that count as the same.
+isSame :: Point -> Point -> Bool
+isSame p q = Vec.distance p q <= OutlineTolerance.same
 
 -- | True of a part of an ellipse that is flattened to a line.
 isCollapsed :: PathPart -> Bool

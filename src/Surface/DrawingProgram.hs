@@ -88,7 +88,7 @@ layerText used (layer, outlines) = case traverse circleWithLine outlines of
      in (used', heading <> concat texts)
   where
     heading = "" : ["-- Layer " <> layer | not (Text.null layer)]
-    base = wordFrom "contour" layer
+    base = wordFrom "outline" layer
     one names (k, o) =
       let wanted = if length outlines == 1 then base else base <> "_" <> Decimal.whole k
           name = fresh names wanted

@@ -81,7 +81,7 @@ readable = map (fst . Text.breakOn ":")
 units :: Spec
 units = describe "units" $ do
   it "reads all units of the reference" $
-    map (lengthOfLine Nothing) [1 .. 24]
+    map (radiusOfCircle Nothing) [1 .. 24]
       `shouldBe` [ Just 25.4,
                    Just 304.8,
                    Nothing,
@@ -110,7 +110,7 @@ units = describe "units" $ do
   it "asks for a unit if the file has none" $
     faults (fromDxf Nothing (withHeader [])) `shouldBe` [(1, UnitMissing)]
   it "takes the unit of the program if the file has none" $
-    lengthOfLine (Just Inches) 0 `shouldBe` Just 25.4
+    radiusOfCircle (Just Inches) 0 `shouldBe` Just 25.4
   it "refuses a unit of the program that is not that of the file" $
     faults (fromDxf (Just Inches) (withHeader ["9", "$INSUNITS", "70", "4"]))
       `shouldBe` [(8, UnitConflict "mm" "in")]
@@ -119,14 +119,13 @@ units = describe "units" $ do
       `shouldBe` [(8, UnitUnknown "77")]
   where
     shown = Bytes.pack . show :: Int -> ByteString
-    lengthOfLine stated number =
+    radiusOfCircle stated number =
       case fromDxf stated (withHeader ["9", "$INSUNITS", "70", shown number]) of
-        Right Drawing {entities = [Entity {shape = Path Open (Plain (Straight _ q) :| [])}]} ->
-          Just (Vec.x q)
+        Right Drawing {entities = [Entity {shape = FullCircle (Circle _ (Mm r))}]} -> Just r
         _ -> Nothing
     withHeader variables =
       Bytes.unlines (["0", "SECTION", "2", "HEADER"] <> variables <> ["0", "ENDSEC"])
-        <> entitySection ["0", "LINE", "10", "0", "20", "0", "11", "1", "21", "0"]
+        <> entitySection ["0", "CIRCLE", "10", "0", "20", "0", "40", "1"]
 
 refusals :: Spec
 refusals = describe "refuses" $ do
@@ -212,8 +211,24 @@ details = describe "details" $ do
     leftOutOf ["0", "SPLINE", "70", "8", "71", "3", "11", "0", "21", "0", "11", "1", "21", "1"]
       `shouldBe` [ThroughPoints "SPLINE"]
   it "leaves out entities without size" $
-    leftOutOf ["0", "LINE", "10", "0", "20", "0", "11", "0", "21", "0"]
-      `shouldBe` [Unusable "LINE" "its length is 0"]
+    map
+      (\x -> leftOutOf ["0", "LINE", "10", "0", "20", "0", "11", x, "21", "0"])
+      ["0", "0.000001", "0.00001"]
+      `shouldBe` [[Unusable "LINE" "its length is 0"], [Unusable "LINE" "its length is 0"], []]
+  it "closes polylines that return to their start but for rounding" $
+    map
+      shape
+      ( drawn . section $
+          ["0", "LWPOLYLINE", "70", "1"]
+            <> concat [["10", x, "20", y] | (x, y) <- [("0", "0"), ("5", "0"), ("5", "2")]]
+            <> ["10", "0.00000000000001", "20", "0"]
+      )
+      `shouldBe` [ Path
+                     Closed
+                     ( line' (0, 0) (5, 0)
+                         :| [line' (5, 0) (5, 2), line' (5, 2) (0, 0)]
+                     )
+                 ]
   it "reads the vertices of a smoothed polyline, not its frame" $
     (map shape (drawn smoothed), map remarkKind (either (const []) remarks (inMm smoothed)))
       `shouldBe` ( [ Path Open (Plain (Straight (Vec.point 0 0) (Vec.point 2 1)) :| [])
@@ -237,6 +252,7 @@ details = describe "details" $ do
                    \import."
                  ]
   where
+    line' (a, b) (c, d) = Plain (Straight (Vec.point a b) (Vec.point c d))
     drawn bytes = either (const []) entities (inMm bytes)
     leftOutOf pairs = either (const []) (map remarkKind . remarks) (inMm (section pairs))
     vertex x y flags = ["0", "VERTEX", "10", x, "20", y, "70", flags]

@@ -16,17 +16,19 @@ import Data.Text.Encoding qualified as Encoding
 import Drawing.Drawing
 import Drawing.Error (DrawingFault (..), Error (Error))
 import Drawing.ExpectedDrawing (Expected (ignored), differences, readExpected)
+import Drawing.PathPart qualified as PathPart
 import Drawing.ShapePoint (isOn, shapeAt)
 import Drawing.Svg (fromSvg)
 import Files (filesBelow)
 import Generate.Dxf (Wanted (Wanted))
+import Generate.RelativePath (RelativePath (..), relativePath)
 import Generate.Svg (SvgText (..), svgText)
 import Geometry.Carrier (Circle (Circle))
 import Geometry.Polyarc (Ends (..))
 import Geometry.Segment (Segment (..))
 import Geometry.Vec qualified as Vec
 import Test.Hspec
-import Test.QuickCheck (counterexample, forAll, withMaxSuccess, (.&&.), (===))
+import Test.QuickCheck (counterexample, forAll, property, withMaxSuccess, (.&&.), (===))
 
 spec :: Spec
 spec = describe "the reader of SVG files" $ do
@@ -39,6 +41,18 @@ spec = describe "the reader of SVG files" $ do
             remarks drawing === []
               .&&. map facts (entities drawing) === map wantedFacts svgWanted
               .&&. and (zipWith alike (entities drawing) svgWanted)
+  it
+    "closes relative paths with as many elements as they have steps (catches a short line back to \
+    \the start)"
+    $ property $
+      forAll relativePath $ \RelativePath {steps, svgOfPath} ->
+        case shapes (fromSvg svgOfPath) of
+          [Path Closed parts'] ->
+            let list = NonEmpty.toList parts'
+             in length list === length steps
+                  .&&. map PathPart.end list
+                    === drop 1 (map PathPart.start list) <> take 1 (map PathPart.start list)
+          found -> counterexample (show found) False
   files <- runIO (sort . filter (".svg" `isSuffixOf`) <$> filesBelow "test/data/drawings")
   it "has files of other programs" $ length files `shouldSatisfy` (>= 8)
   describe "reads the file of another program" $
