@@ -59,7 +59,7 @@ importOptions outputFile =
           (choice units)
           ( Opt.long "unit"
               <> Opt.metavar (intercalate "|" (map fst units))
-              <> Opt.help "The unit of a DXF drawing whose file does not give it"
+              <> Opt.help "The unit of a drawing whose file does not give it"
               <> Opt.completeWith (map fst units)
           )
       )

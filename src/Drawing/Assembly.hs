@@ -43,7 +43,8 @@ assembled = go Tolerance.mostParts [] Set.empty []
           Right
             Drawing
               { Drawing.entities = reverse drawn,
-                Drawing.remarks = Set.toAscList remarks
+                Drawing.remarks = Set.toAscList remarks,
+                Drawing.presumed = Nothing
               }
       part : rest
         | left < 0 -> Left (pure (Error (lineOf part) TooManyParts))

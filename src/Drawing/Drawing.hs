@@ -2,6 +2,7 @@
 -- and SVG files are read to this type.
 module Drawing.Drawing
   ( Drawing (..),
+    PresumedSize (..),
     Entity (..),
     Shape (..),
     PathPart (..),
@@ -28,8 +29,16 @@ data Drawing = Drawing
     -- the insertion
     entities :: [Entity],
     -- | the things that were left out or changed, in the order of the file
-    remarks :: [Remark]
+    remarks :: [Remark],
+    -- | the size of an SVG drawing whose unit neither the file nor the program gives, so that a
+    -- pixel counts as 1\/96 in
+    presumed :: Maybe PresumedSize
   }
+  deriving stock (Eq, Show)
+
+-- | The size in mm of the page, or of all that is drawn if there is no page, with the line of the
+-- file at which the page begins.
+data PresumedSize = PresumedSize {sizeLine :: Int, width :: Mm, height :: Mm}
   deriving stock (Eq, Show)
 
 -- | An entity of a drawing.

@@ -94,8 +94,8 @@ isNearPiece part = case part of
 
 -- | The path without the parts that stay within 'OutlineTolerance.same' of the end of the part
 -- before them. The sums of relative coordinates leave such parts, as a line by which a path returns
--- to its start. The parts beside one that is left out are moved so that they meet. A path whose ends
--- are that near to each other is closed. Nothing if no part is left.
+-- to its start. The parts beside one that is left out are moved so that they meet. A path whose
+-- ends are that near to each other is closed. Nothing if no part is left.
 withoutPoints :: Ends -> NonEmpty PathPart -> Maybe Shape
 withoutPoints ends parts = case longer (PathPart.start (NonEmpty.head parts)) (toList parts) of
   [] -> Nothing

@@ -8,6 +8,7 @@ module Drawing.Svg
   )
 where
 
+import Base.Quantity (LengthUnit)
 import Data.Bifunctor (first)
 import Data.ByteString (ByteString)
 import Data.List.NonEmpty (NonEmpty)
@@ -19,69 +20,60 @@ import Drawing.AffineMap (AffineMap (..), after)
 import Drawing.AffineMap qualified as AffineMap
 import Drawing.Assembly (DrawingPart (..))
 import Drawing.Assembly qualified as Assembly
-import Drawing.Drawing (Drawing, Entity (..), Remark (..), RemarkKind (..))
+import Drawing.Drawing
+  ( Drawing (..),
+    Entity (..),
+    PresumedSize (..),
+    Remark (..),
+    RemarkKind (..),
+  )
 import Drawing.Error (DrawingFault (..), Error (Error))
 import Drawing.SvgLength (Direction (..), Viewport (..))
 import Drawing.SvgLength qualified as SvgLength
 import Drawing.SvgNode (NodeContent (..), SvgNode (..))
 import Drawing.SvgNode qualified as SvgNode
+import Drawing.SvgPage qualified as SvgPage
 import Drawing.Tolerance qualified as Tolerance
 import Drawing.XmlElement (XmlElement, nameOf)
 import Drawing.XmlElement qualified as XmlElement
 import Drawing.XmlText qualified as XmlText
 import Geometry.Vec qualified as Vec
 
--- | The drawing of an SVG file, in mm with y upwards from the lower edge of the page. All errors of
--- its elements are reported, or else the first error in the form of the file.
-fromSvg :: ByteString -> Either (NonEmpty Error) Drawing
-fromSvg bytes = do
+-- | The drawing of an SVG file, in mm with y upwards from the lower edge of the page. The unit is
+-- that of the file, or the one that the program states if the file has none ('SvgPage.page'). All
+-- errors of its elements are reported, or else the first error in the form of the file.
+fromSvg :: Maybe LengthUnit -> ByteString -> Either (NonEmpty Error) Drawing
+fromSvg stated bytes = do
   element <- first pure (XmlElement.fromText =<< XmlText.fromBytes bytes)
   let (root, named) = SvgNode.nodes element
       wrong fault = Left (pure (Error (XmlElement.line element) fault))
   if nameOf element == "svg" then Right () else wrong (NotSvg (nameOf element))
-  (toPage, viewport) <- first pure (page element)
+  ownPage <- first pure (SvgPage.page stated element)
   case XmlElement.attribute "transform" element of
     Just text -> wrong (WrongAttribute "svg" "transform" text)
     Nothing -> Right ()
-  Assembly.assembled $
-    partsWithin
-      Context
-        { named,
-          toPage,
-          viewport,
-          layerHere = "",
-          identifiersHere = [],
-          classesHere = [],
-          isVisible = True,
-          around = []
-        }
-      root
-      []
-
--- The page ------------------------------------------------------------------------------------
-
--- | The map from the user units of the outermost element to mm, and its viewport. A px is 1\/96 in.
--- Without a width or a height the view box gives it; without a view box either, the page has no
--- height, and the upper edge lies at 0.
-page :: XmlElement -> Either Error (AffineMap, Viewport)
-page element = do
-  box <- SvgLength.viewBox element
-  let (boxWidth, boxHeight) = maybe (0, 0) (\(_, _, w, h) -> (w, h)) box
-      inBox = Viewport boxWidth boxHeight
-  width <- SvgLength.given inBox Horizontal "width" element
-  height <- SvgLength.given inBox Vertical "height" element
-  let (pageWidth, pageHeight) = case (width, height) of
-        (Just w, Just h) -> (w, h)
-        (Just w, Nothing) -> (w, if boxWidth > 0 then w * boxHeight / boxWidth else 0)
-        (Nothing, Just h) -> (if boxHeight > 0 then h * boxWidth / boxHeight else 0, h)
-        (Nothing, Nothing) -> (boxWidth, boxHeight)
-      mm = 25.4 / 96
-      upright = (AffineMap.scaling mm (negate mm)) {dy = mm * pageHeight}
-  case box of
-    Nothing -> Right (upright, Viewport pageWidth pageHeight)
-    Just area -> do
-      m <- SvgLength.boxMap element area (pageWidth, pageHeight)
-      Right (upright `after` m, inBox)
+  let context =
+        Context
+          { named,
+            toPage = SvgPage.toPage ownPage,
+            viewport = SvgPage.viewport ownPage,
+            layerHere = "",
+            identifiersHere = [],
+            classesHere = [],
+            isVisible = True,
+            around = []
+          }
+  drawing <- Assembly.assembled (partsWithin context root [])
+  Right
+    drawing
+      { presumed =
+          if SvgPage.hasUnit ownPage
+            then Nothing
+            else
+              let (width, height) =
+                    fromMaybe (SvgPage.extent (entities drawing)) (SvgPage.size ownPage)
+               in Just PresumedSize {sizeLine = XmlElement.line element, width, height}
+      }
 
 -- Nodes ---------------------------------------------------------------------------------------
 

@@ -4,11 +4,13 @@ module Drawing.SvgLength
     Direction (..),
     given,
     givenOr,
+    unitOf,
     viewBox,
     boxMap,
   )
 where
 
+import Data.List (find)
 import Data.Maybe (fromMaybe)
 import Data.Text (Text)
 import Data.Text qualified as Text
@@ -58,6 +60,13 @@ given (Viewport width height) direction name element = case attribute name eleme
 givenOr :: Double -> Viewport -> Direction -> Text -> XmlElement -> Either Error Double
 givenOr standard viewport direction name element =
   fromMaybe standard <$> given viewport direction name element
+
+-- | The unit of length of an attribute, if the element has the attribute and its value has one. A
+-- pixel is none, since programs draw with pixels of several sizes.
+unitOf :: Text -> XmlElement -> Maybe Text
+unitOf name element = do
+  (_, rest) <- Number.leading =<< attribute name element
+  find (== Text.strip rest) ["mm", "cm", "in", "pt", "pc", "Q"]
 
 -- | The rectangle of the attribute @viewBox@: x, y, width, height. Nothing if the element has none.
 viewBox :: XmlElement -> Either Error (Maybe (Double, Double, Double, Double))

@@ -60,6 +60,9 @@ data DrawingMistake
     SameEntity Region Region
   | -- | a mistake in a text with outlines of a font
     InFont FontMistake
+  | -- | an SVG drawing whose unit nobody gives: the place of its page, the width and the height
+    -- with pixels of 1\/96 in
+    UnitPresumed Region Mm Mm
   deriving stock (Eq, Ord, Show)
 
 -- | A gap that was closed: the entities before and after it, its width and its place.
@@ -148,6 +151,17 @@ toReport fault = case fault of
       { others = [Label original "the other one"]
       }
   InFont mistake -> FontError.toReport mistake
+  UnitPresumed region (Mm width) (Mm height) ->
+    (warning region "W0104" "the drawing names no unit of length, so a pixel counts as 1/96 in")
+      { message =
+          [ "It is " <> Decimal.short 2 width <> " mm wide and " <> Decimal.short 2 height
+              <> " mm high then."
+          ],
+        hints =
+          [ "State the unit of its numbers: write unit mm after the file, or --unit mm for partc \
+            \import."
+          ]
+      }
   where
     place = Vec.toText Millimetres 4
     gapText (GapPlace _ _ (Mm d) p) =

@@ -34,6 +34,7 @@ import Drawing.Drawing
   ( Drawing (..),
     Entity,
     PathPart (..),
+    PresumedSize (PresumedSize),
     Remark (..),
     RemarkKind (..),
     Shape (..),
@@ -85,12 +86,17 @@ fromBytes ::
 fromBytes (Located at name) stated (begin, shown) content = case formatOf name of
   Nothing -> ([NotADrawing at name], [], Nothing)
   Just Dxf -> made (Dxf.fromDxf stated content)
-  Just Svg -> made (Svg.fromSvg content)
+  Just Svg -> made (Svg.fromSvg stated content)
   where
     made outcome = case outcome of
       Left faults -> (map bad (NonEmpty.toList faults), [], Nothing)
       Right drawing ->
-        ([], remarkFaults regionOfLine (remarks drawing), Just DrawingText {drawing, regionOfLine})
+        ( [],
+          presumption drawing <> remarkFaults regionOfLine (remarks drawing),
+          Just DrawingText {drawing, regionOfLine}
+        )
+    presumption drawing =
+      [UnitPresumed (regionOfLine n) w h | Just (PresumedSize n w h) <- [presumed drawing]]
     bad e =
       BadDrawing
         (regionOfLine (FileError.line e))

@@ -24,10 +24,10 @@ spec = describe "the reader of SVG files" $ do
   texts <- runIO (traverse ByteString.readFile files)
   it "answers to uses of uses within bounds (catches nodes that are not counted)" $
     withMaxSuccess 15 $
-      forAll uses (answers fromSvg)
+      forAll uses (answers (fromSvg Nothing))
   it "answers to damaged SVG files within bounds (catches a line that is not there)" $
     withMaxSuccess count $
-      forAll (oneof [svgBytes <$> svgText, elements texts] >>= damaged) (answers fromSvg)
+      forAll (oneof [svgBytes <$> svgText, elements texts] >>= damaged) (answers (fromSvg Nothing))
 
 -- | A file with groups of which each uses the one before it several times, or uses any one.
 uses :: Gen ByteString

@@ -3,7 +3,7 @@ module Drawing.SvgSpec
   )
 where
 
-import Base.Quantity (Mm (..))
+import Base.Quantity (LengthUnit (..), Mm (..))
 import Control.Monad (forM_)
 import Data.ByteString (ByteString)
 import Data.ByteString qualified as ByteString
@@ -34,7 +34,7 @@ spec :: Spec
 spec = describe "the reader of SVG files" $ do
   it "reads the elements that a file contains (catches the large arc for the small one)" $
     withMaxSuccess 600 $
-      forAll svgText $ \SvgText {svgBytes, svgWanted} -> case fromSvg svgBytes of
+      forAll svgText $ \SvgText {svgBytes, svgWanted} -> case fromSvg Nothing svgBytes of
         Left errors -> counterexample (show errors) False
         Right drawing ->
           counterexample (show (entities drawing)) $
@@ -46,7 +46,7 @@ spec = describe "the reader of SVG files" $ do
     \the start)"
     $ property $
       forAll relativePath $ \RelativePath {steps, svgOfPath} ->
-        case shapes (fromSvg svgOfPath) of
+        case shapes (fromSvg Nothing svgOfPath) of
           [Path Closed parts'] ->
             let list = NonEmpty.toList parts'
              in length list === length steps
@@ -59,13 +59,14 @@ spec = describe "the reader of SVG files" $ do
     forM_ files $ \name -> it name $ do
       wanted <- readExpected (name <> ".expected.json")
       bytes <- ByteString.readFile name
-      case fromSvg bytes of
+      case fromSvg Nothing bytes of
         Left errors -> expectationFailure (show errors)
         Right drawing -> do
           differences wanted drawing `shouldBe` []
           [w | Remark _ (NotUnderstood w) <- remarks drawing] `shouldBe` ignored wanted
   pathsOf
   structure
+  units
   refusals
 
 facts :: Entity -> (Int, Text, Text)
@@ -162,17 +163,49 @@ structure = describe "the structure" $ do
     onLayer name =
       "<g inkscape:groupmode='layer' inkscape:label='" <> name <> "'><circle r='1'/></g>"
 
+units :: Spec
+units = describe "units" $ do
+  it "takes the unit of the program for user units if the file names none" $
+    map
+      (shapes . fromSvg (Just Inches) . withPage)
+      ["", "width='50' height='30px'", "viewBox='1 -2 8 4'", "width='100%' viewBox='1 -2 8 4'"]
+      `shouldBe` [ [circleAt 50.8 0 25.4],
+                   [circleAt 50.8 762 25.4],
+                   [circleAt 25.4 50.8 25.4],
+                   [circleAt 25.4 50.8 25.4]
+                 ]
+  it "refuses a unit of the program that is not that of the file" $ do
+    let inCentimetres = withPage "width='5cm' height='4' viewBox='0 0 50 40'"
+    faults (fromSvg (Just Inches) (withPage "width='5mm' height='4mm'"))
+      `shouldBe` [(1, UnitConflict "mm" "in")]
+    faults (fromSvg (Just Millimetres) inCentimetres) `shouldBe` [(1, UnitConflict "cm" "mm")]
+    shapes (fromSvg (Just Inches) (withPage "height='4in' viewBox='0 0 8 4'"))
+      `shouldBe` [circleAt 50.8 101.6 25.4]
+  it "tells the size that pixels give if nobody names a unit" $
+    map
+      (either (const Nothing) presumed . fromSvg Nothing . withPage)
+      ["width='96' height='48px'", "viewBox='0 0 960 96'", "", "width='9mm'"]
+      `shouldBe` [ Just (PresumedSize 1 (Mm 25.4) (Mm 12.7)),
+                   Just (PresumedSize 1 (Mm 254) (Mm 25.4)),
+                   Just (PresumedSize 1 (Mm (3 * pixel - pixel)) (Mm (2 * pixel))),
+                   Nothing
+                 ]
+  where
+    pixel = 25.4 / 96
+    withPage attributes = "<svg " <> attributes <> "><circle cx='2' r='1'/></svg>"
+    circleAt x y r = FullCircle (Circle (Vec.point x y) (Mm r))
+
 refusals :: Spec
 refusals = describe "refuses" $ do
   it "texts that are no XML" $ do
-    faults (fromSvg "0\nSECTION\n") `shouldBe` [(1, NotXml "it has no element.")]
-    faults (fromSvg "<svg>\n<g>\n</svg>") `shouldBe` [(3, NotXml "this tag ends no element.")]
-    faults (fromSvg "<svg>\n<g>\n</g>") `shouldBe` [(1, NotXml "this element has no end.")]
-    faults (fromSvg "<svg>\n<g x=1/></svg>") `shouldBe` [(2, NotXml "this is not well-formed XML.")]
-  it "other files of XML" $ faults (fromSvg "\n<html/>") `shouldBe` [(2, NotSvg "html")]
+    faults (fromSvg Nothing "0\nSECTION\n") `shouldBe` [(1, NotXml "it has no element.")]
+    faults (fromSvg Nothing "<svg>\n<g>\n</svg>") `shouldBe` [(3, NotXml "this tag ends no element.")]
+    faults (fromSvg Nothing "<svg>\n<g>\n</g>") `shouldBe` [(1, NotXml "this element has no end.")]
+    faults (fromSvg Nothing "<svg>\n<g x=1/></svg>") `shouldBe` [(2, NotXml "this is not well-formed XML.")]
+  it "other files of XML" $ faults (fromSvg Nothing "\n<html/>") `shouldBe` [(2, NotSvg "html")]
   it "attributes with mistakes, and reports all" $
     faults
-      ( fromSvg $
+      ( fromSvg Nothing $
           "<svg>\n<path d='M 0 0 L 1'/>\n<g transform='turn(3)'/>\n"
             <> "<circle r='2em'/></svg>"
       )
@@ -189,10 +222,10 @@ refusals = describe "refuses" $ do
     kindsOf (inMm ("<g id='u0'/>" <> foldMap doubled [1 .. 40 :: Int] <> "<use href='#u40'/>"))
       `shouldBe` [TooManyParts]
   it "entities that multiply" $
-    kindsOf (fromSvg (withEntity "'aaa'" <> repeated 30000 "&a;" <> "</svg>"))
+    kindsOf (fromSvg Nothing (withEntity "'aaa'" <> repeated 30000 "&a;" <> "</svg>"))
       `shouldBe` [NotXml "it has too many references to entities."]
   it "files outside" $
-    shapes (fromSvg (withEntity "SYSTEM 'file:///etc/passwd'" <> "&a;<circle r='96'/></svg>"))
+    shapes (fromSvg Nothing (withEntity "SYSTEM 'file:///etc/passwd'" <> "&a;<circle r='96'/></svg>"))
       `shouldBe` [FullCircle (Circle (Vec.point 0 0) (Mm 25.4))]
   it "elements that are nested too deeply" $
     kindsOf (inMm (repeated 600 "<g>" <> repeated 600 "</g>"))
@@ -211,7 +244,7 @@ refusals = describe "refuses" $ do
 
 -- | A file whose user unit is 1 mm and whose upper edge lies at 0.
 inMm :: ByteString -> Either (NonEmpty Error) Drawing
-inMm body = fromSvg (file body)
+inMm body = fromSvg Nothing (file body)
 
 file :: ByteString -> ByteString
 file body =
@@ -230,7 +263,7 @@ kinds :: Either (NonEmpty Error) Drawing -> [RemarkKind]
 kinds = either (const []) (map remarkKind . remarks)
 
 layers :: ByteString -> [Text]
-layers = map layer . drawn . fromSvg
+layers = map layer . drawn . fromSvg Nothing
 
 faults :: Either (NonEmpty Error) Drawing -> [(Int, DrawingFault)]
 faults = either (map (\(Error l f) -> (l, f)) . NonEmpty.toList) (const [])
