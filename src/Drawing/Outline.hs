@@ -213,7 +213,10 @@ withoutGaps (ends, chains) =
   where
     list = sconcat (fmap links chains)
     following = NonEmpty.tail list <> [NonEmpty.head list | ends == Closed]
-    joints = [(a, b, PathPart.joint (part a) (part b)) | (a, b) <- zip (NonEmpty.toList list) following]
+    joints =
+      [ (a, b, PathPart.joint (part a) (part b))
+        | (a, b) <- zip (NonEmpty.toList list) following
+      ]
     places = [p | (_, _, p) <- joints]
     ownStart = PathPart.start (part (NonEmpty.head list))
     ownEnd = PathPart.end (part (NonEmpty.last list))

@@ -34,7 +34,7 @@ spec :: Spec
 spec = describe "the reader of SVG files" $ do
   it "reads the elements that a file contains (catches the large arc for the small one)" $
     withMaxSuccess 600 $
-      forAll svgText $ \SvgText {svgBytes, svgWanted} -> case fromSvg Nothing svgBytes of
+      forAll svgText $ \SvgText {svgBytes, svgWanted} -> case reading svgBytes of
         Left errors -> counterexample (show errors) False
         Right drawing ->
           counterexample (show (entities drawing)) $
@@ -46,7 +46,7 @@ spec = describe "the reader of SVG files" $ do
     \the start)"
     $ property $
       forAll relativePath $ \RelativePath {steps, svgOfPath} ->
-        case shapes (fromSvg Nothing svgOfPath) of
+        case shapes (reading svgOfPath) of
           [Path Closed parts'] ->
             let list = NonEmpty.toList parts'
              in length list === length steps
@@ -59,7 +59,7 @@ spec = describe "the reader of SVG files" $ do
     forM_ files $ \name -> it name $ do
       wanted <- readExpected (name <> ".expected.json")
       bytes <- ByteString.readFile name
-      case fromSvg Nothing bytes of
+      case reading bytes of
         Left errors -> expectationFailure (show errors)
         Right drawing -> do
           differences wanted drawing `shouldBe` []
@@ -183,7 +183,7 @@ units = describe "units" $ do
       `shouldBe` [circleAt 50.8 101.6 25.4]
   it "tells the size that pixels give if nobody names a unit" $
     map
-      (either (const Nothing) presumed . fromSvg Nothing . withPage)
+      (either (const Nothing) presumed . reading . withPage)
       ["width='96' height='48px'", "viewBox='0 0 960 96'", "", "width='9mm'"]
       `shouldBe` [ Just (PresumedSize 1 (Mm 25.4) (Mm 12.7)),
                    Just (PresumedSize 1 (Mm 254) (Mm 25.4)),
@@ -198,14 +198,14 @@ units = describe "units" $ do
 refusals :: Spec
 refusals = describe "refuses" $ do
   it "texts that are no XML" $ do
-    faults (fromSvg Nothing "0\nSECTION\n") `shouldBe` [(1, NotXml "it has no element.")]
-    faults (fromSvg Nothing "<svg>\n<g>\n</svg>") `shouldBe` [(3, NotXml "this tag ends no element.")]
-    faults (fromSvg Nothing "<svg>\n<g>\n</g>") `shouldBe` [(1, NotXml "this element has no end.")]
-    faults (fromSvg Nothing "<svg>\n<g x=1/></svg>") `shouldBe` [(2, NotXml "this is not well-formed XML.")]
-  it "other files of XML" $ faults (fromSvg Nothing "\n<html/>") `shouldBe` [(2, NotSvg "html")]
+    faults (reading "0\nSECTION\n") `shouldBe` [(1, NotXml "it has no element.")]
+    faults (reading "<svg>\n<g>\n</svg>") `shouldBe` [(3, NotXml "this tag ends no element.")]
+    faults (reading "<svg>\n<g>\n</g>") `shouldBe` [(1, NotXml "this element has no end.")]
+    faults (reading "<svg>\n<g x=1/></svg>") `shouldBe` [(2, NotXml "this is not well-formed XML.")]
+  it "other files of XML" $ faults (reading "\n<html/>") `shouldBe` [(2, NotSvg "html")]
   it "attributes with mistakes, and reports all" $
     faults
-      ( fromSvg Nothing $
+      ( reading $
           "<svg>\n<path d='M 0 0 L 1'/>\n<g transform='turn(3)'/>\n"
             <> "<circle r='2em'/></svg>"
       )
@@ -222,10 +222,10 @@ refusals = describe "refuses" $ do
     kindsOf (inMm ("<g id='u0'/>" <> foldMap doubled [1 .. 40 :: Int] <> "<use href='#u40'/>"))
       `shouldBe` [TooManyParts]
   it "entities that multiply" $
-    kindsOf (fromSvg Nothing (withEntity "'aaa'" <> repeated 30000 "&a;" <> "</svg>"))
+    kindsOf (reading (withEntity "'aaa'" <> repeated 30000 "&a;" <> "</svg>"))
       `shouldBe` [NotXml "it has too many references to entities."]
   it "files outside" $
-    shapes (fromSvg Nothing (withEntity "SYSTEM 'file:///etc/passwd'" <> "&a;<circle r='96'/></svg>"))
+    shapes (reading (withEntity "SYSTEM 'file:///etc/passwd'" <> "&a;<circle r='96'/></svg>"))
       `shouldBe` [FullCircle (Circle (Vec.point 0 0) (Mm 25.4))]
   it "elements that are nested too deeply" $
     kindsOf (inMm (repeated 600 "<g>" <> repeated 600 "</g>"))
@@ -242,9 +242,13 @@ refusals = describe "refuses" $ do
 
 -- Texts ---------------------------------------------------------------------------------------
 
+-- | The drawing of a file for which the program states no unit.
+reading :: ByteString -> Either (NonEmpty Error) Drawing
+reading = fromSvg Nothing
+
 -- | A file whose user unit is 1 mm and whose upper edge lies at 0.
 inMm :: ByteString -> Either (NonEmpty Error) Drawing
-inMm body = fromSvg Nothing (file body)
+inMm body = reading (file body)
 
 file :: ByteString -> ByteString
 file body =
@@ -263,7 +267,7 @@ kinds :: Either (NonEmpty Error) Drawing -> [RemarkKind]
 kinds = either (const []) (map remarkKind . remarks)
 
 layers :: ByteString -> [Text]
-layers = map layer . drawn . fromSvg Nothing
+layers = map layer . drawn . reading
 
 faults :: Either (NonEmpty Error) Drawing -> [(Int, DrawingFault)]
 faults = either (map (\(Error l f) -> (l, f)) . NonEmpty.toList) (const [])

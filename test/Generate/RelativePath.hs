@@ -38,7 +38,8 @@ relativePath = do
       { steps,
         svgOfPath =
           Encoding.encodeUtf8 . Text.pack $
-            "<svg " <> attributes <> "><g " <> transform <> "><path d=\"" <> text <> "\"/></g></svg>"
+            "<svg " <> attributes <> "><g transform='" <> transform <> "'><path d='" <> text
+              <> "'/></g></svg>"
       }
   where
     corner :: Int -> Int -> Gen [Int]
@@ -56,7 +57,7 @@ relativePath = do
     written places n =
       showFFloat (Just places) (fromIntegral n / 10 ^^ places :: Double) ""
     pages =
-      [ ("width=\"130mm\" height=\"110mm\" viewBox=\"0 0 130 110\"", ""),
-        ("width=\"130mm\" height=\"110mm\" viewBox=\"0 0 130 110\"", "transform=\"translate(-40.2,-95.7)\""),
-        ("width=\"13cm\" height=\"11cm\" viewBox=\"0 0 491.34 415.75\"", "transform=\"rotate(7.3)\"")
+      [ ("width='130mm' height='110mm' viewBox='0 0 130 110'", "scale(1)"),
+        ("width='130mm' height='110mm' viewBox='0 0 130 110'", "translate(-40.2,-95.7)"),
+        ("width='13cm' height='11cm' viewBox='0 0 491.34 415.75'", "rotate(7.3)")
       ]

@@ -28,14 +28,15 @@ spec = describe "programs from drawings" $
         case imported "path.svg" svgOfPath of
           Result {errors = [], warnings = [], output = Just text} ->
             counterexample (Text.unpack text) $
-              let elements' = [l | l <- Text.lines text, any (`Text.isPrefixOf` Text.strip l) starts]
+              let isElement l = any (`Text.isPrefixOf` Text.strip l) starts
                   arcs = [s | s@('a' : _) <- steps]
                in conjoin
-                    [ length elements' === length steps + length arcs,
-                      [Report.title r | r <- Reports.onProgram (Region.fromText "path.part" text), Report.isError r] === []
+                    [ length (filter isElement (Text.lines text)) === length steps + length arcs,
+                      map Report.title (filter Report.isError (reportsOn text)) === []
                     ]
           found -> counterexample (show found) False
   where
+    reportsOn = Reports.onProgram . Region.fromText "path.part"
     starts = ["(", "cw ", "ccw "]
 
 -- | The program of a drawing in a file with a name.
