@@ -10,10 +10,11 @@ module Drawing.Outline
     ClosedGap (..),
     JoinFault (..),
     joined,
+    openBy,
   )
 where
 
-import Base.Quantity (Mm (..), times)
+import Base.Quantity (Mm (..), plus, times, total)
 import Data.IntMap.Strict (IntMap)
 import Data.IntMap.Strict qualified as IntMap
 import Data.IntSet qualified as IntSet
@@ -94,6 +95,22 @@ joined tolerance entities =
     lineOf o = Drawing.line (entity (NonEmpty.head (parts o)))
     closed = withoutGaps
 
+-- | The distance between the ends of an open outline that is probably meant to be closed: at most
+-- 'Tolerance.nearEnds' or 'Tolerance.nearShare' of its length, and at most 'Tolerance.farShare' of
+-- it. Nothing for others.
+openBy :: Outline -> Maybe Mm
+openBy o
+  | ends o == Open && gap <= limit = Just gap
+  | otherwise = Nothing
+  where
+    gap = Vec.distance (PathPart.start (part (NonEmpty.head (parts o)))) (PathPart.end final)
+    final = part (NonEmpty.last (parts o))
+    whole = total [Segment.length s | p <- NonEmpty.toList (parts o), s <- segmentsOf (part p)]
+    segmentsOf = NonEmpty.toList . PathPart.segments
+    limit =
+      min (times Tolerance.farShare whole) $
+        max Tolerance.nearEnds (times Tolerance.nearShare whole)
+
 -- | An entity that is an outline by itself.
 wholeOutline :: Entity -> Maybe Outline
 wholeOutline e = case Drawing.shape e of
@@ -138,8 +155,10 @@ partnersOf tolerance chains = (IntMap.fromList single, branches)
       [ m
         | m <- around tolerance cells (pointAt chains n),
           m /= n,
-          Vec.distance (pointAt chains m) (pointAt chains n) <= tolerance
+          Vec.distance (pointAt chains m) (pointAt chains n) <= reach
       ]
+    -- A gap that is as wide as the tolerance may come in wider by rounding.
+    reach = plus tolerance Tolerance.rounding
     found = [(n, near n) | n <- numbers]
     single = [(n, m) | (n, [m]) <- found, near m == [n]]
     crowded = [(n, ms) | (n, ms@(_ : _ : _)) <- found, all (n <) ms]

@@ -4,6 +4,9 @@ module Drawing.OutlineTolerance
     same,
     rounding,
     decimals,
+    nearEnds,
+    nearShare,
+    farShare,
   )
 where
 
@@ -27,3 +30,18 @@ rounding = Mm 1e-9
 -- decimals that are rounding only.
 decimals :: Int
 decimals = 10
+
+-- | The largest distance in mm between the ends of an open outline that is told, since the outline
+-- is probably meant to be closed.
+nearEnds :: Mm
+nearEnds = Mm 1
+
+-- | The share of the length of a long open outline up to which the distance between its ends is
+-- told.
+nearShare :: Double
+nearShare = 0.01
+
+-- | The share of the length of a short open outline above which the distance between its ends is
+-- not told: a line of less than a millimetre is meant to be open.
+farShare :: Double
+farShare = 0.1

@@ -15,6 +15,7 @@ import Data.List.NonEmpty qualified as NonEmpty
 import Data.Text (Text)
 import Data.Text qualified as Text
 import Drawing.FileFormat qualified as FileFormat
+import Drawing.OutlineTolerance qualified as OutlineTolerance
 import Geometry.Vec (Point)
 import Geometry.Vec qualified as Vec
 import Report.Report (Label (..), Report (..), ReportPlace (..), Severity (..), at, quote, report)
@@ -63,6 +64,9 @@ data DrawingMistake
   | -- | an SVG drawing whose unit nobody gives: the place of its page, the width and the height
     -- with pixels of 1\/96 in
     UnitPresumed Region Mm Mm
+  | -- | an open outline whose ends are near to each other: the entities at both ends, the distance
+    -- of the ends, and the ends
+    NearlyClosed Region Region Mm Point Point
   deriving stock (Eq, Ord, Show)
 
 -- | A gap that was closed: the entities before and after it, its width and its place.
@@ -162,11 +166,28 @@ toReport fault = case fault of
             \import."
           ]
       }
+  NearlyClosed a b gap p q ->
+    (warning a "W0105" ("this outline is open by " <> gapSize gap <> " mm"))
+      { others = [Label b "its other end" | a /= b],
+        message = ["Its ends are " <> place p <> " and " <> place q <> "."],
+        hints =
+          [ "To close it, write within " <> gapSize gap <> " mm after the file, or --within "
+              <> gapSize gap
+              <> " for partc import."
+          ]
+      }
   where
     place = Vec.toText Millimetres 4
     gapText (GapPlace _ _ (Mm d) p) =
       "At " <> place p <> " it was " <> Decimal.short 6 d <> " mm wide."
     andMore n = ["There are " <> Decimal.whole n <> " more." | n > 0]
+
+-- | The number of mm by which ends at a distance are joined: the distance, rounded up at the fourth
+-- decimal.
+gapSize :: Mm -> Text
+gapSize (Mm d) = Decimal.short 4 (fromIntegral (ceiling (1e4 * (d - rounding)) :: Int) / 1e4)
+  where
+    Mm rounding = OutlineTolerance.rounding
 
 -- | The title for gaps that were closed.
 gapsTitle :: Int -> Text

@@ -197,7 +197,7 @@ outlinesIn :: DrawingText -> Region -> Mm -> [Entity] -> Converted [Outline]
 outlinesIn text file tolerance chosen =
   Converted
     { mistakes = map (joinFault regionOf) (faults joining),
-      notes = remarksOf regionOf file joining,
+      notes = remarksOf regionOf file joining <> concatMap (nearlyClosed regionOf) (outlines joining),
       given = outlines joining
     }
   where
@@ -216,7 +216,9 @@ contours ::
   Converted [Statement]
 contours text at file asked name (tolerance, chosen) = case asked of
   OneOutline -> case outlines joining of
-    [one] -> result [] [contourOf name one]
+    [one] ->
+      let made = result [] [contourOf name one]
+       in made {notes = notes made <> nearlyClosed regionOf one}
     [] -> result [NoOutline file] []
     first : more ->
       result [SeveralOutlines file (1 + length more) (fmap firstOf (first :| more))] []
@@ -316,6 +318,17 @@ remarksOf regionOf file joining =
     <> [SameEntity (regionOf e) (regionOf original) | (e, original) <- repeated joining]
   where
     gapPlace g = GapPlace (regionOf (before g)) (regionOf (after g)) (width g) (joint g)
+
+-- | The remark about an open outline that is probably meant to be closed.
+nearlyClosed :: (Entity -> Region) -> Outline -> [DrawingMistake]
+nearlyClosed regionOf o =
+  [ NearlyClosed (regionOf (entity a)) (regionOf (entity b)) gap (start a) (end b)
+    | gap <- maybeToList (Outline.openBy o)
+  ]
+  where
+    (a, b) = (NonEmpty.head (parts o), NonEmpty.last (parts o))
+    start = PathPart.start . part
+    end = PathPart.end . part
 
 -- Tables ------------------------------------------------------------------------------------------
 
