@@ -53,6 +53,9 @@ data DrawingMistake
     CrossingEntities Region Region Point
   | -- | no circle for a table: the region of the file
     NoCircle Region
+  | -- | two circles of different sizes on one centre for a table: their entities, their diameters,
+    -- and the count of further such pairs
+    ConcentricCircles (Region, Region) (Mm, Mm) Int
   | -- | gaps between ends that were closed: the region of the file, the places
     ClosedGaps Region (NonEmpty GapPlace)
   | -- | an entity that is left out: its place, what it is, and the reason
@@ -144,6 +147,17 @@ toReport fault = case fault of
               \union or difference."
             ]
         }
+  ConcentricCircles (a, b) (c, d) more ->
+    (at b "E0125" "this circle has the same centre as another one")
+      { others = [Label a "the other one"],
+        message =
+          [ "Their diameters are " <> length' c <> " and " <> length' d
+              <> ", and a row for each would drill two holes there."
+          ]
+            <> ["So it is at " <> Decimal.whole more <> " more places." | more > 1]
+            <> ["So it is at one more place." | more == 1],
+        hints = ["Put the circles of one size on a layer of their own, and choose this layer."]
+      }
   ClosedGaps region gaps ->
     (warning region "W0101" (gapsTitle (NonEmpty.length gaps) <> widest gaps))
       { message = map gapText (NonEmpty.take 8 gaps) <> andMore (NonEmpty.length gaps - 8),
@@ -178,6 +192,7 @@ toReport fault = case fault of
       }
   where
     place = Vec.toText Millimetres 4
+    length' = Decimal.inUnit Millimetres
     gapText (GapPlace _ _ (Mm d) p) =
       "At " <> place p <> " it was " <> Decimal.short 6 d <> " mm wide."
     andMore n = ["There are " <> Decimal.whole n <> " more." | n > 0]

@@ -59,7 +59,7 @@ convert name stated tolerance shown content =
          in Result
               (remarks <> concatMap (notes . snd) layers)
               faults
-              (if null faults then Just (programText own file made) else Nothing)
+              (if null faults then Just (programText tolerance own file made) else Nothing)
   where
     start = Region 0 0
     joinedIn text = FromDrawing.outlinesIn text start tolerance
@@ -67,22 +67,25 @@ convert name stated tolerance shown content =
       [(layer, filter ((== layer) . Drawing.layer) es) | layer <- nub (map Drawing.layer es)]
 
 -- | The text of a program with the name @own@, from the outlines of each layer of a drawing. The
--- comments name the entities and their lines in the file.
-programText :: Text -> Text -> [(Text, [Outline])] -> Text
-programText own file layers =
+-- comments name the entities and their lines in the file. Circles within the tolerance of one
+-- centre stay contours.
+programText :: Mm -> Text -> Text -> [(Text, [Outline])] -> Text
+programText tolerance own file layers =
   fromMaybe text (Formatter.format text)
   where
     text =
       Text.unlines
         ( ["-- From " <> file <> ".", "part " <> wordFrom "drawing" own]
-            <> concat (snd (mapAccumL layerText Set.empty layers))
+            <> concat (snd (mapAccumL (layerText tolerance) Set.empty layers))
         )
 
--- | The lines of a layer, and the names in use after them.
-layerText :: Set Text -> (Text, [Outline]) -> (Set Text, [Text])
-layerText used (layer, outlines) = case traverse circleWithLine outlines of
-  Just circles@(_ : _ : _) ->
-    let name = fresh used base in (Set.insert name used, heading <> tableText name circles)
+-- | The lines of a layer, and the names in use after them: a table if it has several circles, and
+-- nothing else, and no two of them have one centre within the tolerance.
+layerText :: Mm -> Set Text -> (Text, [Outline]) -> (Set Text, [Text])
+layerText tolerance used (layer, outlines) = case traverse circleWithLine outlines of
+  Just circles@(_ : _ : _)
+    | all (null . snd) (FromDrawing.withEarlier tolerance (\(Circle c _, _) -> c) circles) ->
+      let name = fresh used base in (Set.insert name used, heading <> tableText name circles)
   _ ->
     let (used', texts) = mapAccumL one used (zip [1 :: Int ..] outlines)
      in (used', heading <> concat texts)

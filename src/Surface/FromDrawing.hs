@@ -10,6 +10,7 @@ module Surface.FromDrawing
     contours,
     asRegion,
     circleOf,
+    withEarlier,
     tableLines,
   )
 where
@@ -22,6 +23,7 @@ import Base.Region (Located (..), Region (Region))
 import Base.Region qualified as Region
 import Data.ByteString (ByteString)
 import Data.Char (isSpace)
+import Data.List (find, nub, partition, sortOn)
 import Data.List.NonEmpty (NonEmpty (..))
 import Data.List.NonEmpty qualified as NonEmpty
 import Data.Map.Strict qualified as Map
@@ -51,9 +53,12 @@ import Drawing.OutlineTolerance qualified as Tolerance
 import Drawing.PathPart qualified as PathPart
 import Drawing.Svg qualified as Svg
 import Geometry.Carrier (Circle (Circle))
+import Geometry.Index.BoundingBox qualified as BoundingBox
+import Geometry.Index.BoxTree qualified as BoxTree
 import Geometry.Polyarc qualified as Polyarc
 import Geometry.Segment (Segment (Arc))
 import Geometry.Segment qualified as Segment
+import Geometry.Vec (Point)
 import Geometry.Vec qualified as Vec
 import Report.Report (quote)
 import Surface.DrawingError (DrawingMistake (..), GapPlace (..))
@@ -332,39 +337,94 @@ nearlyClosed regionOf o =
 
 -- Tables ------------------------------------------------------------------------------------------
 
+-- | A circle or a point for a row of a table: its entity, its centre, and its radius, which is 0 for
+-- a point.
+data TableCircle = TableCircle {drawnBy :: Entity, centre :: Point, size :: Mm}
+
 -- | The lines of a table with a row for each circle and each point among some entities: the
 -- coordinates of the centre, and the diameter, which is 0 for a point. @file@ is the region of the
--- name of the file. Ends within @tolerance@ are joined, so that two arcs may make a circle.
+-- name of the file. Ends within @tolerance@ are joined, so that two arcs may make a circle. Two
+-- circles on one centre are a mistake, since a hole for each row would be drilled twice.
 tableLines :: DrawingText -> Region -> (Mm, [Entity]) -> Converted [TableLine]
 tableLines text file (tolerance, chosen) =
   Converted
-    { mistakes = [NoCircle file | null circles],
-      notes =
-        remarksOf regionOf file joining
-          <> [ LeftOut
-                 (regionOf (entity p))
-                 (Drawing.word (entity p) <> " is no circle, and is left out")
-               | o <- outlines joining,
-                 null (circleOf o),
-                 p <- take 1 (NonEmpty.toList (parts o))
-             ],
-      given =
-        if null circles then [] else header : [Located at (row at c r) | (at, c, r) <- circles]
+    { mistakes = [NoCircle file | null found] <> concentric,
+      notes = nub (remarksOf regionOf file joining <> noCircles <> same),
+      given = if null rows then [] else header : map row rows
     }
   where
     regionOf = regionOfLine text . Drawing.line
     joining = Outline.joined tolerance chosen
-    dots = [(regionOf e, p, Mm 0) | e <- chosen, Dot p <- [Drawing.shape e]]
-    circles = dots <> mapMaybe placed (outlines joining)
+    found =
+      [TableCircle e p (Mm 0) | e <- chosen, Dot p <- [Drawing.shape e]]
+        <> mapMaybe placed (outlines joining)
     placed o = do
       Circle c r <- circleOf o
-      Just (regionOf (entity (NonEmpty.head (parts o))), c, r)
+      Just (TableCircle (entity (NonEmpty.head (parts o))) c r)
+    (rows, same, concentric) = distinct regionOf tolerance found
+    noCircles =
+      let firsts = [entity (NonEmpty.head (parts o)) | o <- outlines joining, null (circleOf o)]
+       in [ LeftOut (regionOf e) (noCircleText (Drawing.word e) (length firsts))
+            | e <- take 1 firsts
+          ]
     header = Located file (Header (heading "x" :| [heading "y", heading "diameter"]))
     heading word = Heading (Located file (Name word)) Nothing
-    row at c r =
-      let Mm d = times 2 r
+    row TableCircle {drawnBy, centre, size} =
+      let Mm d = times 2 size
+          at = regionOf drawnBy
           cell = ValueCell . DrawnContour.size at (Just Millimetre)
-       in Entries (fmap cell (Vec.x c :| [Vec.y c, d]))
+       in Located at (Entries (fmap cell (Vec.x centre :| [Vec.y centre, d])))
+
+-- | The sentence for outlines that are no circles, from the word of the first one and their count.
+noCircleText :: Text -> Int -> Text
+noCircleText word count
+  | count == 1 = word <> " is no circle, and is left out"
+  | otherwise = Decimal.whole count <> " outlines are no circles, and are left out"
+
+-- | The circles and points of a table of which no two have one centre within the tolerance, the
+-- remarks on those that are left out, and the mistakes. A point on the centre of a circle marks the
+-- circle, and is left out without a remark. Of circles of one size, or of points, the first one
+-- counts. Circles of different sizes are a mistake.
+distinct ::
+  (Entity -> Region) ->
+  Mm ->
+  [TableCircle] ->
+  ([TableCircle], [DrawingMistake], [DrawingMistake])
+distinct regionOf tolerance found =
+  ( [c | (c, []) <- inOrder],
+    [SameEntity (placeOf c) (placeOf o) | (c, Just o) <- repeated],
+    [ ConcentricCircles (placeOf o, placeOf c) (times 2 (size o), times 2 (size c)) (length more)
+      | (c, o) : more <- [different]
+    ]
+  )
+  where
+    (points, circles) = partition isPoint found
+    isPoint c = size c == Mm 0
+    -- Circles stand before points, so that a point has the circle which it marks before it.
+    neighbours = withEarlier tolerance centre (circles <> points)
+    inOrder = [n | isWanted <- [isPoint, not . isPoint], n <- neighbours, isWanted (fst n)]
+    repeated = [(c, find (isSameAs c) others) | (c, others) <- neighbours]
+    different =
+      [ (c, o)
+        | (c, o : others) <- neighbours,
+          not (isPoint c),
+          not (any (isSameAs c) (o : others))
+      ]
+    isSameAs a b = isPoint a == isPoint b && isEqual (size a) (size b)
+    isEqual (Mm r) (Mm s) = Mm (abs (r - s)) <= tolerance
+    placeOf = regionOf . drawnBy
+
+-- | The things of a list, each with those before it whose points are within a distance.
+withEarlier :: Mm -> (a -> Point) -> [a] -> [(a, [a])]
+withEarlier most pointOf list =
+  [ (a, [b | (j, b) <- sortOn fst (BoxTree.within (boxOf most n) index), j < k, isNear a b])
+    | n@(k, a) <- numbered
+  ]
+  where
+    numbered = zip [0 :: Int ..] list
+    index = BoxTree.index (boxOf (Mm 0)) numbered
+    boxOf margin (_, a) = BoundingBox.inflate margin (BoundingBox.ofPoints (pointOf a) [])
+    isNear a b = Vec.distance (pointOf a) (pointOf b) <= most
 
 -- | The circle of a closed outline that consists of arcs of one circle.
 circleOf :: Outline -> Maybe Circle
