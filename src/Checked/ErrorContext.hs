@@ -59,17 +59,18 @@ complete statements errors = case errors of
       $ besideElements statements (filter (not . isLost) errors)
   where
     -- The name of a definition that cannot be parsed is unknown, and may be any that is missing.
+    -- A table that cannot be read may have a column with any name.
     isLost e = case e of
-      UndefinedName {} -> isNameLost
+      UndefinedName {} -> isNameLost || isTableLost
       UndefinedFunction {} -> isNameLost
       _ -> False
-    isNameLost =
-      or
-        [ True
-          | Located _ (Surface.Broken keyword Nothing) <-
-              concatMap SyntaxWalk.statementsIn statements,
-            fromMaybe "let" keyword `elem` ["let", "param", "contour", "table", "curve", "piece"]
-        ]
+    isNameLost = or [fromMaybe "let" k `elem` definers | (k, Nothing) <- broken]
+    isTableLost = Just "table" `elem` map fst broken
+    definers = ["let", "param", "contour", "table", "curve", "piece"]
+    broken =
+      [ (keyword, name)
+        | Located _ (Surface.Broken keyword name) <- concatMap SyntaxWalk.statementsIn statements
+      ]
 
 -- | The errors, with one error for all numbers of a point that lacks its brackets.
 oncePerPoint :: [Statement] -> [Error] -> [Error]
