@@ -25,10 +25,19 @@ data DrawingPart
 
 -- | The part that an entity in mm becomes: itself, a remark that it is no curve, or an error.
 partOf :: Entity -> DrawingPart
-partOf entity@Entity {line, word, shape} = case ShapeCheck.judge shape of
-  Usable usable -> Drawn entity {shape = usable}
-  Degenerate reason -> Remarked Remark {remarkLine = line, remarkKind = Unusable word reason}
-  TooFar -> Wrong (Error line (OutOfReach word))
+partOf entity@Entity {line, word, layer, identifiers, classes, shape} =
+  case ShapeCheck.judge shape of
+    Usable usable -> Drawn entity {shape = usable}
+    Degenerate reason ->
+      Remarked
+        Remark
+          { remarkLine = line,
+            remarkKind = Unusable word reason,
+            remarkLayer = layer,
+            remarkIdentifiers = identifiers,
+            remarkClasses = classes
+          }
+    TooFar -> Wrong (Error line (OutOfReach word))
 
 -- | The drawing of its parts, or their errors up to a limit. A remark or an error of an entity that
 -- is inserted several times is given once. An error if there are more parts than the limit; the

@@ -103,8 +103,15 @@ data Spline = Spline
   }
   deriving stock (Eq, Show)
 
--- | Something that the reader of a drawing left out or changed, with the line of the file.
-data Remark = Remark {remarkLine :: Int, remarkKind :: RemarkKind}
+-- | Something that the reader of a drawing left out or changed: the line of the file, the layer,
+-- the identifiers and the classes as those of an entity.
+data Remark = Remark
+  { remarkLine :: Int,
+    remarkKind :: RemarkKind,
+    remarkLayer :: Text,
+    remarkIdentifiers :: [Text],
+    remarkClasses :: [Text]
+  }
   deriving stock (Eq, Ord, Show)
 
 -- | The kinds of remarks.

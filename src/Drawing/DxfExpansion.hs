@@ -104,7 +104,15 @@ partsOf context DxfItem {itemLine = line, itemWord, itemLayer, content} = case c
   where
     layer = if itemLayer == "0" then layerOfInsert context else itemLayer
     hiding = Map.lookup (DxfBlock.key layer) (hidden context)
-    remarked kind = Remarked Remark {remarkLine = line, remarkKind = kind}
+    remarked kind =
+      Remarked
+        Remark
+          { remarkLine = line,
+            remarkKind = kind,
+            remarkLayer = layer,
+            remarkIdentifiers = [],
+            remarkClasses = []
+          }
     inserted block m =
       concatMap
         (partsOf context {toDrawing = toDrawing context `after` m, layerOfInsert = layer})

@@ -106,7 +106,19 @@ parts context node@SvgNode {source, content} others = case content of
          in Visited line : unclipped <> partsOf here node others
   where
     line = XmlElement.line source
-    remarked kind = Remarked Remark {remarkLine = line, remarkKind = kind}
+    remarked = remarkOn (inside context node) source
+
+-- | A remark on an element in its surroundings.
+remarkOn :: Context -> XmlElement -> RemarkKind -> DrawingPart
+remarkOn context source kind =
+  Remarked
+    Remark
+      { remarkLine = XmlElement.line source,
+        remarkKind = kind,
+        remarkLayer = layerHere context,
+        remarkIdentifiers = identifiersHere context,
+        remarkClasses = classesHere context
+      }
 
 -- | The surroundings of the nodes within a node.
 inside :: Context -> SvgNode -> Context
@@ -139,7 +151,7 @@ partsOf context node@SvgNode {source, content} others = case content of
     Right (Right found) -> foldr ((:) . Assembly.partOf . entity) others found
   where
     line = XmlElement.line source
-    remarked kind = Remarked Remark {remarkLine = line, remarkKind = kind}
+    remarked = remarkOn context source
     entity shape =
       Entity
         { line,

@@ -48,10 +48,11 @@ convert ::
 convert name stated tolerance shown content =
   case FromDrawing.fromBytes (Located start name) stated (0, shown) content of
     (faults, remarks, Nothing) -> Result remarks faults Nothing
-    (_, remarks, Just text) -> case FromDrawing.chosenFrom start Nothing (drawing text) of
-      Left fault -> Result remarks [fault] Nothing
+    (_, presumptions, Just text) -> case FromDrawing.chosenFrom start Nothing (drawing text) of
+      Left fault -> Result (presumptions <> FromDrawing.remarksIn text Nothing) [fault] Nothing
       Right es ->
-        let layers = [(layer, joinedIn text layerOf) | (layer, layerOf) <- byLayer es]
+        let remarks = presumptions <> FromDrawing.remarksIn text Nothing
+            layers = [(layer, joinedIn text layerOf) | (layer, layerOf) <- byLayer es]
             faults = concatMap (mistakes . snd) layers
             made = [(layer, given c) | (layer, c) <- layers]
             own = Text.pack (takeBaseName (Text.unpack name))

@@ -4,6 +4,7 @@ module Surface.FromDrawing
   ( DrawingText (..),
     fromBytes,
     distance,
+    remarksIn,
     chosenFrom,
     Converted (..),
     outlinesIn,
@@ -79,8 +80,8 @@ data Converted a = Converted {mistakes :: [DrawingMistake], notes :: [DrawingMis
 instance Functor Converted where
   fmap f c = c {given = f (given c)}
 
--- | The drawing of a file: its mistakes, the remarks about it, and the drawing if it has no
--- mistake. @at@ is the region of the name of the file in the program, @stated@ the unit that the
+-- | The drawing of a file: its mistakes, the remarks about the whole of it, and the drawing if it
+-- has no mistake. @at@ is the region of the name of the file in the program, @stated@ the unit that the
 -- program gives the drawing. The text @shown@ of the file begins at the offset @begin@.
 fromBytes ::
   Located Text ->
@@ -96,10 +97,7 @@ fromBytes (Located at name) stated (begin, shown) content = case formatOf name o
     made outcome = case outcome of
       Left faults -> (map bad (NonEmpty.toList faults), [], Nothing)
       Right drawing ->
-        ( [],
-          presumption drawing <> remarkFaults regionOfLine (remarks drawing),
-          Just DrawingText {drawing, regionOfLine}
-        )
+        ([], presumption drawing, Just DrawingText {drawing, regionOfLine})
     presumption drawing =
       [UnitPresumed (regionOfLine n) w h | Just (PresumedSize n w h) <- [presumed drawing]]
     bad e =
@@ -121,14 +119,22 @@ fromBytes (Located at name) stated (begin, shown) content = case formatOf name o
          in Region from (from + Text.length (Text.strip text))
       Nothing -> at
 
--- | The remarks about a drawing: one for each kind of entity and reason, at the first such entity.
-remarkFaults :: (Int -> Region) -> [Remark] -> [DrawingMistake]
-remarkFaults regionOf list =
-  [ LeftOut (regionOf (minimum lines')) (remarkText kind (length lines'))
+-- | The remarks about the entities that a selection takes: one for each kind of entity and reason,
+-- at the first such entity.
+remarksIn :: DrawingText -> Maybe (Located DrawingSelection) -> [DrawingMistake]
+remarksIn text selection =
+  [ LeftOut (regionOfLine text (Set.findMin lines')) (remarkText kind (Set.size lines'))
     | (kind, lines') <- Map.toList byKind
   ]
   where
-    byKind = Map.fromListWith (<>) [(kind, [n]) | Remark n kind <- list]
+    byKind =
+      Map.fromListWith
+        (<>)
+        [ (remarkKind r, Set.singleton (remarkLine r))
+          | r <- remarks (drawing text),
+            all (\(Located _ choice) -> isChosen choice r) selection
+        ]
+    isChosen choice r = takes choice (remarkLayer r) (remarkIdentifiers r) (remarkClasses r)
 
 -- | The sentence of a remark for a count of entities.
 remarkText :: RemarkKind -> Int -> Text
@@ -180,11 +186,8 @@ chosenFrom file selection Drawing {entities} = case selection of
        in Left (NothingSelected at (wordsFor choice) names)
     es -> Right es
   where
-    isIn choice e = case choice of
-      -- The names of layers are the same in capital and small letters.
-      OnLayer name -> Text.toCaseFold name == Text.toCaseFold (Drawing.layer e)
-      WithIdentifier name -> name `elem` Drawing.identifiers e
-      WithClass name -> name `elem` Drawing.classes e
+    isIn choice e =
+      takes choice (Drawing.layer e) (Drawing.identifiers e) (Drawing.classes e)
     wordsFor choice = case choice of
       OnLayer name -> "layer " <> quote name <> " with entities"
       WithIdentifier name -> "element with the id " <> quote name
@@ -193,6 +196,14 @@ chosenFrom file selection Drawing {entities} = case selection of
       OnLayer _ -> [Drawing.layer e | not (Text.null (Drawing.layer e))]
       WithIdentifier _ -> Drawing.identifiers e
       WithClass _ -> Drawing.classes e
+
+-- | True if a selection takes what has a layer, identifiers and classes. The names of layers are the
+-- same in capital and small letters.
+takes :: DrawingSelection -> Text -> [Text] -> [Text] -> Bool
+takes choice layer identifiers classes = case choice of
+  OnLayer name -> Text.toCaseFold name == Text.toCaseFold layer
+  WithIdentifier name -> name `elem` identifiers
+  WithClass name -> name `elem` classes
 
 -- Contours ----------------------------------------------------------------------------------------
 

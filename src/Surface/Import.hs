@@ -267,22 +267,28 @@ fromDrawing reader chain part make = do
   case (,) <$> read' <*> pure (FromDrawing.distance (unitAt chain at) (joinedWithin part)) of
     Nothing -> pure Nothing
     Just (_, Left fault) -> recorded (Converted [fault] [] Nothing)
-    Just (text, Right tolerance) ->
-      case FromDrawing.chosenFrom at (selection part) (drawing text) of
-        Left fault -> recorded (Converted [fault] [] Nothing)
-        Right chosen -> recorded (Just <$> make text at (tolerance, chosen))
+    Just (text, Right tolerance) -> do
+      let remarks = FromDrawing.remarksIn text (selection part)
+      recorded $ case FromDrawing.chosenFrom at (selection part) (drawing text) of
+        Left fault -> Converted [fault] remarks Nothing
+        Right chosen ->
+          let made = make text at (tolerance, chosen)
+           in made {notes = remarks <> notes made, given = Just (given made)}
   where
     Located at name = drawingFile part
 
--- | Records the mistakes and the remarks of what a drawing gives. 'Nothing' if there are mistakes.
+-- | Records the mistakes and the remarks of what a drawing gives, the same remark once. 'Nothing' if
+-- there are mistakes.
 recorded :: Monad m => Converted (Maybe a) -> StateT Progress m (Maybe a)
 recorded Converted {mistakes, notes, given} = do
   modify' $ \p ->
     p
       { found = reverse (map InDrawing mistakes) <> found p,
-        noted = reverse (map InDrawing notes) <> noted p
+        noted = foldl withNote (noted p) (map InDrawing notes)
       }
   pure (if null mistakes then given else Nothing)
+  where
+    withNote before note = if note `elem` before then before else note : before
 
 -- | The drawing that a part of a drawing names, by its path. It is read once for each unit that
 -- statements give it. Records its mistakes and remarks; 'Nothing' if it cannot be read.

@@ -66,7 +66,7 @@ alike e (Wanted _ _ _ s) = and [isOn t (shapeAt t s) (shape e) | t <- [0, 0.05 .
 -- | The words of entities that were left out because they have no shape in the drawing.
 leftOut :: Drawing -> [(Int, Text.Text)]
 leftOut drawing =
-  [(l, w) | Remark l kind <- remarks drawing, Just w <- [wordOf kind]]
+  [(l, w) | Remark {remarkLine = l, remarkKind = kind} <- remarks drawing, Just w <- [wordOf kind]]
     <> [(line e, word e) | e@Entity {shape = Dot _} <- entities drawing]
   where
     wordOf kind = case kind of

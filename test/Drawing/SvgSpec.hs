@@ -63,7 +63,7 @@ spec = describe "the reader of SVG files" $ do
         Left errors -> expectationFailure (show errors)
         Right drawing -> do
           differences wanted drawing `shouldBe` []
-          [w | Remark _ (NotUnderstood w) <- remarks drawing] `shouldBe` ignored wanted
+          [w | Remark {remarkKind = NotUnderstood w} <- remarks drawing] `shouldBe` ignored wanted
   pathsOf
   structure
   units
