@@ -43,7 +43,7 @@ data PresumedSize = PresumedSize {sizeLine :: Int, width :: Mm, height :: Mm}
 
 -- | An entity of a drawing.
 data Entity = Entity
-  { -- | number of the line of the file at which the entity begins, from 1
+  { -- | number of the line of the file on which the word of the entity stands, from 1
     line :: Int,
     -- | the word of the file for this kind of entity, as @LWPOLYLINE@ or @path@
     word :: Text,

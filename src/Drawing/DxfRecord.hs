@@ -32,7 +32,7 @@ import Drawing.Number qualified as Number
 
 -- | A record.
 data Record = Record
-  { -- | number of the line of its first pair
+  { -- | number of the line of its word, or of the first value of a part of a record
     begin :: Int,
     -- | the value of its pair with code 0
     word :: Text,
@@ -48,10 +48,10 @@ fromPairs = go []
     go found rest = case rest of
       [] -> Right (reverse found)
       Pair {line, code, content} : more
-        | code /= 0 -> Left (Error line (Misplaced (latin content)))
+        | code /= 0 -> Left (Error (line + 1) (Misplaced (latin content)))
         | otherwise ->
           let (own, others) = break (\Pair {code = other} -> other == 0) more
-           in go (Record {begin = line, word = latin content, pairs = own} : found) others
+           in go (Record {begin = line + 1, word = latin content, pairs = own} : found) others
 
 -- | The first pair of a record with a code.
 value :: Int -> Record -> Maybe Pair
@@ -114,7 +114,7 @@ groups wanted record = go (dropWhile isOther (pairs record))
       [] -> []
       opening@Pair {line} : more ->
         let (own, others) = span isOther more
-         in record {begin = line, pairs = opening : own} : go others
+         in record {begin = line + 1, pairs = opening : own} : go others
 
 -- | Bytes as text, each byte a character. The words and numbers of a file are ASCII.
 latin :: ByteString -> Text

@@ -106,13 +106,9 @@ fromBytes (Located at name) stated (begin, shown) content = case formatOf name o
         (lowered (FileError.title e))
         [FileError.message e]
         (FileError.hints e)
-    isEntity n =
-      formatOf name == Just Dxf
-        && fmap (Text.strip . snd) (lines' Vector.!? (n - 1)) == Just "0"
     lines' = Vector.fromList (Region.numbered shown)
     lowered t = Text.toLower (Text.take 1 t) <> Text.drop 1 t
-    -- An entity of a DXF file begins with the line 0; its word is in the next line.
-    regionOfLine n = case if isEntity n then lines' Vector.!? n else lines' Vector.!? (n - 1) of
+    regionOfLine n = case lines' Vector.!? (n - 1) of
       Just (offset, text) ->
         let blank = Text.length (Text.takeWhile isSpace text)
             from = begin + offset + blank

@@ -140,7 +140,7 @@ refusals = describe "refuses" $ do
     faults (inMm "0\nSECTION\n2") `shouldBe` [(3, EndsEarly Group)]
   it "a section without its end" $
     faults (inMm (Bytes.unlines ["0", "SECTION", "2", "ENTITIES", "0", "EOF"]))
-      `shouldBe` [(1, EndsEarly OneSection)]
+      `shouldBe` [(2, EndsEarly OneSection)]
   it "a file without entities" $ faults (inMm "0\nEOF\n") `shouldBe` [(1, EndsEarly EntitySection)]
   it "numbers that are none, and reports all" $
     faults
@@ -152,16 +152,16 @@ refusals = describe "refuses" $ do
       `shouldBe` [(8, NotANumber "x"), (18, NotANumber "nan"), (28, NotANumber "1e999")]
   it "an entity without a coordinate" $
     faults (inMm (section ["0", "LINE", "10", "0", "20", "0", "11", "1"]))
-      `shouldBe` [(5, ValueMissing "LINE" 21)]
+      `shouldBe` [(6, ValueMissing "LINE" 21)]
   it "an entity out of reach" $
     faults (inMm (section ["0", "CIRCLE", "10", "2e6", "20", "0", "40", "1"]))
-      `shouldBe` [(5, OutOfReach "CIRCLE")]
+      `shouldBe` [(6, OutOfReach "CIRCLE")]
   it "an unknown block" $
     faults (inMm (section ["0", "INSERT", "2", "A", "10", "0", "20", "0"]))
-      `shouldBe` [(5, BlockUnknown "A")]
+      `shouldBe` [(6, BlockUnknown "A")]
   it "a block that contains itself" $
     faults (inMm (withBlocks [("A", insertOf "B" 1), ("b", insertOf "a" 1)] (insertOf "A" 1)))
-      `shouldBe` [(37, Cycle ["a", "B", "a"])]
+      `shouldBe` [(38, Cycle ["a", "B", "a"])]
   it "blocks that multiply" $
     faults
       ( inMm
@@ -170,7 +170,7 @@ refusals = describe "refuses" $ do
               (insertOf "A20" 10)
           )
       )
-      `shouldBe` [(511, TooManyParts)]
+      `shouldBe` [(512, TooManyParts)]
   it "blocks that are nested too deeply" $
     map
       snd

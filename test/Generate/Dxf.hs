@@ -36,7 +36,7 @@ data DxfText = DxfText {bytes :: ByteString, stated :: Maybe LengthUnit, wanted 
 instance Show DxfText where
   show t = Bytes.unpack (bytes t) <> show (stated t, wanted t)
 
--- | An entity to be found: its line, its word, its layer and its shape in mm.
+-- | An entity to be found: the line of its word, its word, its layer and its shape in mm.
 data Wanted = Wanted {line :: Int, word :: Text, layer :: Text, shape :: Shape}
   deriving stock (Show)
 
@@ -67,7 +67,7 @@ dxfText = do
           <> records
           <> [end, Record 3 [(0, "EOF")]]
       starts = scanl (+) 1 (map ((2 *) . length . pairs) whole)
-      lines' = Map.fromList (zip (map tag whole) starts)
+      lines' = Map.fromList (zip (map tag whole) (map (+ 1) starts))
       toMm = AffineMap.scaling size size
   pure
     DxfText
