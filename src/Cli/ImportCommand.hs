@@ -16,7 +16,7 @@ import Cli.Outcome (failWith)
 import Cli.Output (Exit (..), Reporter)
 import Cli.Output qualified as Output
 import Cli.OutputFile (writeText)
-import Control.Applicative (optional)
+import Control.Applicative (many, optional)
 import Data.List (intercalate)
 import Data.Maybe (fromMaybe, isJust)
 import Data.Text (Text)
@@ -40,6 +40,8 @@ data ImportOptions = ImportOptions
     statedUnit :: Maybe LengthUnit,
     -- | the largest distance of ends of a drawing that are joined
     joinedWithin :: Maybe Mm,
+    -- | the layers of a drawing that are imported; all if none is named
+    importedLayers :: [Text],
     -- | the program to write; absent for standard output
     programFile :: Maybe FilePath
   }
@@ -71,6 +73,13 @@ importOptions outputFile =
               <> Opt.help "The largest gap between ends of a drawing that are joined; usually 0.001"
           )
       )
+    <*> many
+      ( Opt.strOption
+          ( Opt.long "layer"
+              <> Opt.metavar "NAME"
+              <> Opt.help "Import only this layer of a drawing; may be repeated"
+          )
+      )
     <*> optional outputFile
   where
     units = [("mm", Millimetres), ("in", Inches)]
@@ -99,7 +108,13 @@ importDrawing reporter options = do
       let shown = Encoding.decodeLatin1 bytes
        in written reporter file (programFile options) shown $
             Result.mapErrors DrawingError.toReport DrawingError.toReport $
-              DrawingProgram.convert (displayName file) (statedUnit options) within shown bytes
+              DrawingProgram.convert
+                (displayName file)
+                (statedUnit options)
+                within
+                (importedLayers options)
+                shown
+                bytes
   where
     file = importedFile options
     within = fromMaybe Tolerance.joining (joinedWithin options)

@@ -12,6 +12,8 @@ import Base.Region (Located (..), Region (Region))
 import Base.Result (Result (..))
 import Data.ByteString (ByteString)
 import Data.Char (isAlpha, isAlphaNum)
+import Data.Containers.ListUtils (nubOrdOn)
+import Data.Either (partitionEithers)
 import Data.List (find, mapAccumL, nub)
 import Data.List.NonEmpty qualified as NonEmpty
 import Data.Maybe (fromMaybe)
@@ -35,34 +37,42 @@ import Surface.Syntax
 import Surface.Token (unitName)
 import System.FilePath (takeBaseName, takeFileName)
 
--- | The text of a program from a drawing with all its layers. @name@ is the path of the file of the
--- drawing, and @shown@ its text, to which the regions of the reports refer. @stated@ is the unit of
--- the drawing if its file does not give it. Ends within @tolerance@ are joined.
+-- | The text of a program from a drawing with some of its layers, or with all if none is named.
+-- @name@ is the path of the file of the drawing, and @shown@ its text, to which the regions of the
+-- reports refer. @stated@ is the unit of the drawing if its file does not give it. Ends within
+-- @tolerance@ are joined.
 convert ::
   Text ->
   Maybe LengthUnit ->
   Mm ->
+  [Text] ->
   Text ->
   ByteString ->
   Result DrawingMistake DrawingMistake Text
-convert name stated tolerance shown content =
+convert name stated tolerance wanted shown content =
   case FromDrawing.fromBytes (Located start name) stated (0, shown) content of
     (faults, remarks, Nothing) -> Result remarks faults Nothing
-    (_, presumptions, Just text) -> case FromDrawing.chosenFrom start Nothing (drawing text) of
-      Left fault -> Result (presumptions <> FromDrawing.remarksIn text Nothing) [fault] Nothing
-      Right es ->
-        let remarks = presumptions <> FromDrawing.remarksIn text Nothing
-            layers = [(layer, joinedIn text layerOf) | (layer, layerOf) <- byLayer es]
-            faults = concatMap (mistakes . snd) layers
-            made = [(layer, given c) | (layer, c) <- layers]
-            own = Text.pack (takeBaseName (Text.unpack name))
-            file = Text.pack (takeFileName (Text.unpack name))
-         in Result
-              (remarks <> concatMap (notes . snd) layers)
-              faults
-              (if null faults then Just (programText tolerance own file made) else Nothing)
+    (_, presumptions, Just text) ->
+      let remarks = presumptions <> concatMap (FromDrawing.remarksIn text) selections
+       in case partitionEithers (map (chosenFrom text) selections) of
+            (fault : more, _) -> Result remarks (fault : more) Nothing
+            ([], chosen) -> programOf text remarks (concat chosen)
   where
     start = Region 0 0
+    chosenFrom text selection = FromDrawing.chosenFrom start selection (drawing text)
+    selections
+      | null wanted = [Nothing]
+      | otherwise = map (Just . Located start . OnLayer) (nubOrdOn Text.toCaseFold wanted)
+    programOf text remarks es =
+      let layers = [(layer, joinedIn text layerOf) | (layer, layerOf) <- byLayer es]
+          faults = concatMap (mistakes . snd) layers
+          made = [(layer, given c) | (layer, c) <- layers]
+          own = Text.pack (takeBaseName (Text.unpack name))
+          file = Text.pack (takeFileName (Text.unpack name))
+       in Result
+            (remarks <> concatMap (notes . snd) layers)
+            faults
+            (if null faults then Just (programText tolerance own file made) else Nothing)
     joinedIn text = FromDrawing.outlinesIn text start tolerance
     byLayer es =
       [(layer, filter ((== layer) . Drawing.layer) es) | layer <- nub (map Drawing.layer es)]

@@ -22,6 +22,7 @@ import Generate.RelativePath (RelativePath (..), relativePath)
 import Report.Report qualified as Report
 import Reports qualified
 import Surface.DrawingError (DrawingMistake)
+import Surface.DrawingError qualified as DrawingError
 import Surface.DrawingProgram qualified as DrawingProgram
 import System.FilePath (takeExtension, takeFileName)
 import Test.Hspec
@@ -46,6 +47,21 @@ spec = describe "programs from drawings" $ do
             maybe False (Text.isInfixOf word) (rows Vector.!? (read (Text.unpack number) - 1))
       filter (not . hasWord) told `shouldBe` []
       told `shouldNotBe` []
+  it "take only the layers that are named, and refuse others (catches all layers)" $ do
+    content <- ByteString.readFile "test/programs/drawing/bad/centres.dxf"
+    let from layers = importedLayers layers Nothing "centres.dxf" content
+        layersIn = filter ("-- Layer " `Text.isPrefixOf`) . Text.lines . fromMaybe "" . output
+    layersIn (from ["twice", "MARK", "Twice"]) `shouldBe` ["-- Layer TWICE", "-- Layer MARK"]
+    length (layersIn (from [])) `shouldBe` 4
+    let refused = from ["MARK", "none"]
+    (map (Report.code . DrawingError.toReport) (errors refused), output refused)
+      `shouldBe` (["E0124"], Nothing)
+  it "make no table of circles on one centre (catches holes that are drilled twice)" $ do
+    content <- ByteString.readFile "test/programs/drawing/bad/centres.dxf"
+    let tablesIn layer =
+          length . filter ("table " `Text.isPrefixOf`) . Text.lines . fromMaybe "" . output $
+            importedLayers [layer] Nothing "centres.dxf" content
+    map tablesIn ["SINK", "MARK"] `shouldBe` [0, 1]
   it
     "have no mistake and all steps of a relative path (catches a point that is written twice)"
     $ property $
@@ -68,4 +84,10 @@ spec = describe "programs from drawings" $ do
 imported ::
   Maybe LengthUnit -> Text -> ByteString -> Result DrawingMistake DrawingMistake Text
 imported stated name content =
-  DrawingProgram.convert name stated Tolerance.joining (Encoding.decodeLatin1 content) content
+  importedLayers [] stated name content
+
+-- | The program of some layers of a drawing, or of all if none is named.
+importedLayers ::
+  [Text] -> Maybe LengthUnit -> Text -> ByteString -> Result DrawingMistake DrawingMistake Text
+importedLayers layers stated name content =
+  DrawingProgram.convert name stated Tolerance.joining layers (Encoding.decodeLatin1 content) content
