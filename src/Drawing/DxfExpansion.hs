@@ -104,16 +104,20 @@ partsOf context DxfItem {itemLine = line, itemWord, itemLayer, content} = case c
   where
     layer = if itemLayer == "0" then layerOfInsert context else itemLayer
     hiding = Map.lookup (DxfBlock.key layer) (hidden context)
-    remarked kind =
-      Remarked
-        Remark
-          { remarkLine = line,
-            remarkKind = kind,
-            remarkLayer = layer,
-            remarkIdentifiers = [],
-            remarkClasses = []
-          }
+    remarked = remarkOn line layer
     inserted block m =
       concatMap
         (partsOf context {toDrawing = toDrawing context `after` m, layerOfInsert = layer})
         (items block)
+
+-- | A remark on an entity with its line and its layer.
+remarkOn :: Int -> Text -> RemarkKind -> DrawingPart
+remarkOn line layer kind =
+  Remarked
+    Remark
+      { remarkLine = line,
+        remarkKind = kind,
+        remarkLayer = layer,
+        remarkIdentifiers = [],
+        remarkClasses = []
+      }

@@ -155,8 +155,11 @@ partnersOf tolerance chains = (IntMap.fromList single, branches)
       [ m
         | m <- around tolerance cells (pointAt chains n),
           m /= n,
+          m `div` 2 /= n `div` 2 || isAway (pointAt chains n) (chains IntMap.! (n `div` 2)),
           Vec.distance (pointAt chains m) (pointAt chains n) <= reach
       ]
+    -- The ends of a chain that does not leave them, such as a short line, are not joined.
+    isAway p c = any ((> reach) . Vec.distance p . PathPart.middlePoint . part) (links c)
     -- A gap that is as wide as the tolerance may come in wider by rounding.
     reach = plus tolerance Tolerance.rounding
     found = [(n, near n) | n <- numbers]

@@ -20,6 +20,7 @@ import Data.Vector qualified as Vector
 import Drawing.Drawing (Ellipse (..), PathPart (..), Spline (..), ellipsePoint)
 import Drawing.OutlineTolerance qualified as Tolerance
 import Geometry.ArcFitting.CurveFit qualified as CurveFit
+import Geometry.Carrier (Circle (..), Sense (..))
 import Geometry.Curve qualified as Curve
 import Geometry.Curve.Bezier qualified as Bezier
 import Geometry.MeasuredPolyarc qualified as MeasuredPolyarc
@@ -71,7 +72,8 @@ reversed part = case part of
         }
 
 -- | Parts from one point to another instead of a part whose ends are near to these points. A line
--- stays a line. An arc keeps its sweep, and its centre if only rounding moves its ends. Curves move
+-- stays a line. An arc keeps its sweep, and its centre if only rounding moves its ends; it becomes a
+-- circle if it has to end where it begins. Curves move
 -- their first and last control points. A part of an ellipse stays as it is if only rounding would
 -- move its ends, and becomes Bézier curves otherwise.
 withEnds :: Point -> Point -> PathPart -> NonEmpty PathPart
@@ -81,6 +83,10 @@ withEnds p q part
     Plain (Straight _ _) -> Plain (Straight p q) :| []
     Plain (Arc a b centre sweep)
       | isRounding p a && isRounding q b -> Plain (Arc p q centre sweep) :| []
+    Plain (Arc _ _ centre (Rad sweep))
+      | p == q && abs sweep > pi ->
+        let sense = if sweep > 0 then CounterClockwise else Clockwise
+         in Plain (Segment.fullCircle sense (Circle centre (Vec.distance centre p)) p) :| []
     Plain s -> Plain (Segment.fromBulge p q (Segment.bulge s)) :| []
     Bezier ps weights -> Bezier (between ps) weights :| []
     BSpline s -> BSpline s {controls = between (controls s)} :| []

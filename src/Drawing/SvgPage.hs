@@ -53,16 +53,10 @@ page stated element = do
       whole = Viewport pageWidth pageHeight
       upright k bottom = (AffineMap.scaling k (negate k)) {dy = k * bottom}
       inPixels = upright pixel pageHeight
-      made toPage viewport hasUnit =
-        SvgPage
-          { toPage,
-            viewport,
-            hasUnit,
-            size =
-              if min pageWidth pageHeight > 0
-                then Just (Mm (pixel * pageWidth), Mm (pixel * pageHeight))
-                else Nothing
-          }
+      inMm = Mm . (pixel *)
+      size =
+        if min pageWidth pageHeight > 0 then Just (inMm pageWidth, inMm pageHeight) else Nothing
+      made toPage viewport hasUnit = SvgPage {toPage, viewport, hasUnit, size}
   case (units, stated) of
     (name : _, Just unit)
       | Decimal.unitText unit `notElem` units ->

@@ -170,7 +170,7 @@ toReport fault = case fault of
       }
   InFont mistake -> FontError.toReport mistake
   UnitPresumed region (Mm width) (Mm height) ->
-    (warning region "W0104" "the drawing names no unit of length, so a pixel counts as 1/96 in")
+    (warning region "W0104" "the drawing has no unit of length; a pixel counts as 1/96 in")
       { message =
           [ "It is " <> Decimal.short 2 width <> " mm wide and " <> Decimal.short 2 height
               <> " mm high then."

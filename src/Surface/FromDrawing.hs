@@ -81,8 +81,8 @@ instance Functor Converted where
   fmap f c = c {given = f (given c)}
 
 -- | The drawing of a file: its mistakes, the remarks about the whole of it, and the drawing if it
--- has no mistake. @at@ is the region of the name of the file in the program, @stated@ the unit that the
--- program gives the drawing. The text @shown@ of the file begins at the offset @begin@.
+-- has no mistake. @at@ is the region of the name of the file in the program, @stated@ the unit that
+-- the program gives the drawing. The text @shown@ of the file begins at the offset @begin@.
 fromBytes ::
   Located Text ->
   Maybe LengthUnit ->
@@ -193,8 +193,8 @@ chosenFrom file selection Drawing {entities} = case selection of
       WithIdentifier _ -> Drawing.identifiers e
       WithClass _ -> Drawing.classes e
 
--- | True if a selection takes what has a layer, identifiers and classes. The names of layers are the
--- same in capital and small letters.
+-- | True if a selection takes what has a layer, identifiers and classes. The names of layers are
+-- the same in capital and small letters.
 takes :: DrawingSelection -> Text -> [Text] -> [Text] -> Bool
 takes choice layer identifiers classes = case choice of
   OnLayer name -> Text.toCaseFold name == Text.toCaseFold layer
@@ -209,7 +209,8 @@ outlinesIn :: DrawingText -> Region -> Mm -> [Entity] -> Converted [Outline]
 outlinesIn text file tolerance chosen =
   Converted
     { mistakes = map (joinFault regionOf) (faults joining),
-      notes = remarksOf regionOf file joining <> concatMap (nearlyClosed regionOf) (outlines joining),
+      notes =
+        remarksOf regionOf file joining <> concatMap (nearlyClosed regionOf) (outlines joining),
       given = outlines joining
     }
   where
@@ -228,9 +229,7 @@ contours ::
   Converted [Statement]
 contours text at file asked name (tolerance, chosen) = case asked of
   OneOutline -> case outlines joining of
-    [one] ->
-      let made = result [] [contourOf name one]
-       in made {notes = notes made <> nearlyClosed regionOf one}
+    [one] -> result [] [contourOf name one]
     [] -> result [NoOutline file] []
     first : more ->
       result [SeveralOutlines file (1 + length more) (fmap firstOf (first :| more))] []
@@ -252,7 +251,9 @@ contours text at file asked name (tolerance, chosen) = case asked of
     result found made =
       Converted
         { mistakes = found <> map (joinFault regionOf) (faults joining),
-          notes = remarksOf regionOf file joining,
+          notes =
+            remarksOf regionOf file joining
+              <> concat [nearlyClosed regionOf o | OneOutline <- [asked], [o] <- [outlines joining]],
           given = made
         }
     regionOf = regionOfLine text . Drawing.line
@@ -344,8 +345,8 @@ nearlyClosed regionOf o =
 
 -- Tables ------------------------------------------------------------------------------------------
 
--- | A circle or a point for a row of a table: its entity, its centre, and its radius, which is 0 for
--- a point.
+-- | A circle or a point for a row of a table: its entity, its centre, and its radius, which is 0
+-- for a point.
 data TableCircle = TableCircle {drawnBy :: Entity, centre :: Point, size :: Mm}
 
 -- | The lines of a table with a row for each circle and each point among some entities: the

@@ -277,8 +277,8 @@ fromDrawing reader chain part make = do
   where
     Located at name = drawingFile part
 
--- | Records the mistakes and the remarks of what a drawing gives, the same remark once. 'Nothing' if
--- there are mistakes.
+-- | Records the mistakes and the remarks of what a drawing gives, the same remark once. 'Nothing'
+-- if there are mistakes.
 recorded :: Monad m => Converted (Maybe a) -> StateT Progress m (Maybe a)
 recorded Converted {mistakes, notes, given} = do
   modify' $ \p ->

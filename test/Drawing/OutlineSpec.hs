@@ -15,7 +15,7 @@ import Drawing.Outline qualified as Outline
 import Drawing.OutlineTolerance qualified as Tolerance
 import Drawing.PathPart qualified as PathPart
 import Geometry.Polyarc (Ends (..))
-import Geometry.Segment (Segment (Straight))
+import Geometry.Segment (Segment (Arc, Straight))
 import Geometry.Segment qualified as Segment
 import Geometry.Vec (Point)
 import Geometry.Vec qualified as Vec
@@ -74,6 +74,20 @@ spec = do
                     let j = foundWith [PathPart.reversed chosen]
                      in (length (repeated j), length (faults j)) === (1, 0)
                 ]
+  it "arcs whose ends nearly meet are circles, and short lines stay open" $ do
+    let shortLine = Plain (Straight (Vec.point 0 0) (Vec.point 0.0005 0))
+        arc a = Plain (Arc (Vec.point 10 0) (Vec.shift (Vec.polar (Mm 10) a) o) o a)
+        o = Vec.point 0 0
+        joinedAlone p =
+          [ (ends x, fmap (lengthOf . part) (parts x))
+            | x <- outlines (Outline.joined Tolerance.joining (entitiesOf [p]))
+          ]
+        lengthOf p = case p of
+          Plain s -> let Mm v = Segment.length s in fromIntegral (round (v * 1e4) :: Int) / 1e4
+          _ -> 0 :: Double
+    joinedAlone shortLine `shouldBe` [(Open, 0.0005 :| [])]
+    joinedAlone (arc (Rad (2 * pi - 1e-6))) `shouldBe` [(Closed, 62.8319 :| [])]
+    joinedAlone (arc (Rad 1e-5)) `shouldBe` [(Open, 0.0001 :| [])]
   where
     isBranch f = case f of Branch _ _ -> True; Overlap {} -> False
     isOverlap f = case f of Overlap {} -> True; Branch _ _ -> False

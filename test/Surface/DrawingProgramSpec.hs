@@ -90,4 +90,6 @@ imported stated name content =
 importedLayers ::
   [Text] -> Maybe LengthUnit -> Text -> ByteString -> Result DrawingMistake DrawingMistake Text
 importedLayers layers stated name content =
-  DrawingProgram.convert name stated Tolerance.joining layers (Encoding.decodeLatin1 content) content
+  DrawingProgram.convert name stated Tolerance.joining layers shown content
+  where
+    shown = Encoding.decodeLatin1 content
