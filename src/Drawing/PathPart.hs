@@ -72,10 +72,10 @@ reversed part = case part of
         }
 
 -- | Parts from one point to another instead of a part whose ends are near to these points. A line
--- stays a line. An arc keeps its sweep, and its centre if only rounding moves its ends; it becomes a
--- circle if it has to end where it begins. Curves move
--- their first and last control points. A part of an ellipse stays as it is if only rounding would
--- move its ends, and becomes Bézier curves otherwise.
+-- stays a line. An arc keeps its sweep, and its centre if only rounding moves its ends; it becomes
+-- a circle if it has to end where it begins. Curves move their first and last control points. A
+-- part of an ellipse stays as it is if only rounding would move its ends, and becomes Bézier curves
+-- otherwise.
 withEnds :: Point -> Point -> PathPart -> NonEmpty PathPart
 withEnds p q part
   | p == start part && q == end part = part :| []

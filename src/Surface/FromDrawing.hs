@@ -245,7 +245,7 @@ contours text at file asked name (tolerance, chosen) = case asked of
         where
           boundaries = map Nesting.boundary (first : more)
       -- A fault at the ends leaves outlines open.
-      open -> result (if null (faults joining) then map openFault open else []) []
+      open -> result (if null (faults joining) then map (openFault regionOf) open else []) []
   where
     joining = Outline.joined tolerance chosen
     result found made =
@@ -253,7 +253,7 @@ contours text at file asked name (tolerance, chosen) = case asked of
         { mistakes = found <> map (joinFault regionOf) (faults joining),
           notes =
             remarksOf regionOf file joining
-              <> concat [nearlyClosed regionOf o | OneOutline <- [asked], [o] <- [outlines joining]],
+              <> concat [nearlyClosed regionOf o | OneOutline <- [asked], o <- outlines joining],
           given = made
         }
     regionOf = regionOfLine text . Drawing.line
@@ -266,11 +266,6 @@ contours text at file asked name (tolerance, chosen) = case asked of
             (Located at (DrawnContour.closure o))
             (map snd (DrawnContour.items (regionOf . entity) (Just Millimetre) o))
         )
-    openFault o =
-      OpenOutline
-        (firstOf o)
-        (PathPart.start (part (NonEmpty.head (parts o))))
-        (PathPart.end (part (NonEmpty.last (parts o))))
 
 -- | The contours of some closed outlines with their boundaries, and the region that they bound. An
 -- outline within an odd count of others is a hole.
@@ -319,6 +314,13 @@ joinFault :: (Entity -> Region) -> JoinFault -> DrawingMistake
 joinFault regionOf fault = case fault of
   Branch p es -> BranchingOutline p (fmap regionOf es)
   Overlap a b long p -> OverlappingEntities (regionOf a) (regionOf b) long p
+
+-- | The mistake of an open outline where all have to be closed.
+openFault :: (Entity -> Region) -> Outline -> DrawingMistake
+openFault regionOf o =
+  OpenOutline (regionOf (entity a)) (PathPart.start (part a)) (PathPart.end (part b))
+  where
+    (a, b) = (NonEmpty.head (parts o), NonEmpty.last (parts o))
 
 -- | The mistake of a crossing of closed outlines.
 crossingFault :: (Entity -> Region) -> Crossing -> DrawingMistake
