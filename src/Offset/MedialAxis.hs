@@ -155,17 +155,27 @@ data Followed = Followed {around :: Sites, most :: Double, own :: Int, site :: S
 sample :: Followed -> Double -> Sample
 sample f u
   | Just neighbour <- atConvexCorner f u = Sample u 0 (Other neighbour)
-  | otherwise = foldl least (Sample u start startBound) near
+  | otherwise = within firstReach
   where
     (p, n) = contact (site f) u
     (start, startBound) = case site f of
       Side Arc {start = a, centre = o, sweep = Rad w}
         | w > 0, let Mm big = Segment.radius o a, big <= most f -> (big, Itself)
       _ -> (most f, Limit)
-    c = Vec.shift (Vec.scale start n) p
-    box =
-      BoundingBox (Vec.x c - start) (Vec.y c - start) (Vec.x c + start) (Vec.y c + start)
-    near = BoxTree.within box (tree (around f))
+    -- All discs that touch the site at the point lie one in another. So if a disc of some radius
+    -- meets a site that bounds it, the least bound is among the sites that it meets.
+    within r
+      | r >= start = fromNear start
+      | radius found < r = found
+      | otherwise = within (4 * r)
+      where
+        found = fromNear r
+    fromNear r =
+      foldl least (Sample u start startBound) (BoxTree.within (boxAbout r) (tree (around f)))
+    boxAbout r =
+      let c = Vec.shift (Vec.scale r n) p
+       in BoundingBox (Vec.x c - r) (Vec.y c - r) (Vec.x c + r) (Vec.y c + r)
+    firstReach = most f / 64
     least s (k, other)
       | k /= own f,
         Just r <- radiusBetween p n other,
@@ -244,8 +254,13 @@ shares f = dropEqual (sort (even' <> filter isInside (mapMaybe near found)))
     even' = [fromIntegral k / fromIntegral evenCount | k <- [0 .. evenCount]]
     evenCount = 4 :: Int
     isInside u = u > Tolerance.finestShare && u < 1 - Tolerance.finestShare
-    Mm reach' = Mm (2 * most f)
-    found = BoxTree.within (BoundingBox.inflate (Mm reach') (boxOf (site f))) (tree (around f))
+    -- On a site that is shorter than the radius, discs between two samples are about as large.
+    reach' = Mm (2 * (if extent (site f) <= widest then widest else most f))
+    widest = maximum (map (radius . sample f) even')
+    extent s = case s of
+      Side g -> let Mm l = Segment.length g in l
+      Corner {} -> 0
+    found = BoxTree.within (BoundingBox.inflate reach' (boxOf (site f))) (tree (around f))
     near (k, other)
       | k == own f = Nothing
       | otherwise = case (middleOf (site f), other) of

@@ -63,7 +63,7 @@ chains found = walks (freeEnds <> map fst (IntMap.toList from)) from IntSet.empt
     isBranch (_, _, b) = any hasLength (NonEmpty.toList b)
     from =
       IntMap.unionWith
-        (\long _ -> long)
+        const
         (fanned (filter isBranch joined))
         (IntMap.map (take 1) (fanned (filter (not . isBranch) joined)))
     fanned list =

@@ -5,12 +5,16 @@ module Toolpath.CarvingPath
   )
 where
 
-import Base.Quantity (Mm (..), Rad (..))
+import Base.Quantity (Mm (..), Rad (..), times)
 import Base.Region (Located (..), Region)
 import Data.List (mapAccumL)
 import Data.List.NonEmpty (NonEmpty (..))
 import Data.List.NonEmpty qualified as NonEmpty
-import Data.Maybe (fromMaybe, maybeToList)
+import Data.Maybe (fromMaybe, mapMaybe)
+import Geometry.ArcFitting.PolyarcFit qualified as PolyarcFit
+import Geometry.MeasuredPolyarc qualified as MeasuredPolyarc
+import Geometry.Polyarc (Polyarc)
+import Geometry.Polyarc qualified as Polyarc
 import Geometry.Segment (Segment (Straight))
 import Geometry.Vec (Point)
 import Geometry.Vec qualified as Vec
@@ -49,12 +53,25 @@ axisOf :: Carving -> (Part.Contour, [Part.Contour]) -> [Branch]
 axisOf c (outline, holes) =
   MedialAxis.branches (Mm (Tolerance.axisShare * limit)) (Mm widest) loops
   where
-    loops = fmap Part.polyarcOf (outline :| holes)
+    loops = fmap (simplified allowed . Part.polyarcOf) (outline :| holes)
+    allowed = times Tolerance.contourShare (Mm limit)
     Mm limit = uncurry min (Part.deviationLimits (Part.carvingTolerance c))
     Mm tip = Part.carvingTip c
     Mm depth = Part.carvingDepth c
     Rad half = Part.halfAngle c
     widest = tip + depth * tan half
+
+-- | A contour of fewer lines and arcs within a tolerance, if that halves their count. This is so
+-- for contours of curves, which have very many arcs. Others are kept.
+simplified :: Mm -> Polyarc -> Polyarc
+simplified tolerance contour
+  | 2 * NonEmpty.length fewer <= NonEmpty.length all' = contour {Polyarc.segments = fewer}
+  | otherwise = contour
+  where
+    all' = Polyarc.segments contour
+    fewer =
+      MeasuredPolyarc.segments
+        (MeasuredPolyarc.fromFlatPolyarc (PolyarcFit.approximate tolerance all'))
 
 -- | The moves to a chain, down, along it, and up. @at@ is the position of the tool before.
 chainMoves :: Region -> Carving -> SpacePoint -> NonEmpty Branch -> [Move]
@@ -91,7 +108,7 @@ heightAt c r = Mm (negate (max 0 (r - tip)) / tan half)
 restOf :: Carving -> [[Branch]] -> Maybe CarvingRest
 restOf c axes = foldr1 thicker <$> NonEmpty.nonEmpty (map single (filter isThick found))
   where
-    found = concatMap (maybeToList . narrowest (Part.carvingTip c)) (concat axes)
+    found = mapMaybe (narrowest (Part.carvingTip c)) (concat axes)
     limit = uncurry max (Part.deviationLimits (Part.carvingTolerance c))
     isThick (thickness, _) = thickness > limit
     single (thickness, p) = CarvingRest {restCount = 1, thickest = thickness, restAt = p}

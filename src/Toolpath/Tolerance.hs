@@ -13,6 +13,7 @@ module Toolpath.Tolerance
     wayShortened,
     sameNode,
     axisShare,
+    contourShare,
 
     -- * Cutter compensation
     controlMargin,
@@ -42,6 +43,11 @@ sameNode = Mm 1e-5
 -- | The share of the tolerance of a V-carving that its path may deviate from the medial axis.
 axisShare :: Double
 axisShare = 0.25
+
+-- | The share of the tolerance of a V-carving that its contours may deviate by when fewer arcs
+-- replace those of curves.
+contourShare :: Double
+contourShare = 0.1
 
 -- | The largest depth that an arc of an approach, a retract or a lead may cut into the part. It
 -- allows for coordinates of the program that are rounded to a few thousandths of a millimetre.

@@ -20,7 +20,6 @@ import Data.Semigroup (sconcat)
 import Frame.Frame (FrameProgram)
 import Frame.Frame qualified as Frame
 import Geometry.Distance qualified as Distance
-import Geometry.Index.BoundingBox (BoundingBox (..))
 import Geometry.Index.BoundingBox qualified as BoundingBox
 import Geometry.Index.BoxTree (BoxTree)
 import Geometry.Index.BoxTree qualified as BoxTree
@@ -209,7 +208,7 @@ uncarved carved ms =
     sampled s =
       let Mm long = Segment.length s
           Mm step = sampleStep
-          count = max 4 (ceiling (long / step)) :: Int
+          count = ceiling (long / step) :: Int
        in [(fromIntegral k + 0.5) / fromIntegral count | k <- [0 .. count - 1]]
     Mm tip = Part.carvingTip (carving carved)
     index = BoxTree.index Motion.box ms
@@ -245,14 +244,6 @@ largest carved p n = go (100 :: Int) widest
       where
         c = Vec.shift (Vec.scale r n) p
     within = 0.01 * allowed carved
-    nearestWithin c r =
-      let box = BoundingBox (Vec.x c - r) (Vec.y c - r) (Vec.x c + r) (Vec.y c + r)
-          found =
-            [ (d, q)
-              | e <- BoxTree.within box (edges carved),
-                let (Mm d, q) = Distance.nearest c e,
-                d < r
-            ]
-       in case found of
-            [] -> Nothing
-            first : more -> Just (snd (foldl' (\a b -> if fst b < fst a then b else a) first more))
+    nearestWithin c r = case BoxTree.closest (Distance.toPoint c) c (edges carved) of
+      Just (Mm d, e) | d < r -> Just (snd (Distance.nearest c e))
+      _ -> Nothing

@@ -33,8 +33,7 @@ spec = do
   count <- runIO (fromMaybe 50 <$> askedCount "PARTC_CARVINGS")
   it
     "V-carvings of random areas are proven (catches a floor that is carved beside its walls only)"
-    $
-    withMaxSuccess count $
+    $ withMaxSuccess count $
       forAllBlind carved $ \(text, path, program) ->
         counterexample (Text.unpack text) $
           codesOf path program (map Frame.frame (Frame.plannedFrames program)) === []
