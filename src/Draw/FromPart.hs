@@ -294,7 +294,7 @@ leadsOf path =
       Clearing {pocket = Located _ p, pass} -> found (Part.wall p) pass block
       Travelling {} -> Nothing
       Holing _ _ -> Nothing
-      Carved _ _ _ -> Nothing
+      Carved {} -> Nothing
       Commanding _ -> Nothing
     found milling pass block =
       Just (radius milling, Toolpath.atHeight pass, movesBetween block)
@@ -341,7 +341,7 @@ cutterBox block = case block of
     [ BoundingBox.inflate r (BoundingBox.ofPoints p [])
       | Part.Hole (Located _ p) _ r <- NonEmpty.toList (Part.holes d)
     ]
-  Carved _ _ _ -> []
+  Carved {} -> []
   Commanding _ -> []
   Cutting {job = Located _ milling, cut} -> sweptBy milling (NonEmpty.toList cut)
   Clearing {pocket = Located _ p, cleared} -> sweptBy (Part.wall p) (NonEmpty.toList cleared)

@@ -152,5 +152,5 @@ nodesOf isLast block = case block of
   Clearing {} -> []
   Travelling {} -> []
   Holing _ _ -> []
-  Carved _ _ _ -> []
+  Carved {} -> []
   Commanding _ -> []

@@ -173,7 +173,7 @@ toleranceError machine block = case block of
   Toolpath.Clearing {Toolpath.pocket = Located _ p} -> tooLarge (Part.wall p)
   Toolpath.Travelling {} -> Nothing
   Toolpath.Holing _ _ -> Nothing
-  Toolpath.Carved _ _ _ -> Nothing
+  Toolpath.Carved {} -> Nothing
   Toolpath.Commanding _ -> Nothing
   where
     tooLarge job
@@ -206,7 +206,7 @@ contourErrors machine path = case Machine.mostContours (Machine.limits machine) 
         Just (Toolpath.number pass, region (Part.side (Part.wall (value pocket))))
       Toolpath.Travelling {} -> Nothing
       Toolpath.Holing _ _ -> Nothing
-      Toolpath.Carved _ _ _ -> Nothing
+      Toolpath.Carved {} -> Nothing
       Toolpath.Commanding _ -> Nothing
 
 -- Making the frames -------------------------------------------------------------------------------

@@ -181,12 +181,12 @@ toolsOfBlocks path =
         (Toolpath.passNumbers (Toolpath.blocks path))
     hasRole b = case b of
       Toolpath.Holing _ _ -> True
-      Toolpath.Carved _ _ _ -> True
+      Toolpath.Carved {} -> True
       _ -> False
     isPass b = case b of
       Toolpath.Cutting {} -> True
       Toolpath.Clearing {} -> True
       Toolpath.Travelling {} -> False
       Toolpath.Holing _ _ -> False
-      Toolpath.Carved _ _ _ -> False
+      Toolpath.Carved {} -> False
       Toolpath.Commanding _ -> False

@@ -109,7 +109,7 @@ intrusionsOfBlock machined b = case b of
           (asHole d)
           (concat [found (plainIntruder (widthOf m)) {working = Just d} m | m <- ms])
   -- The proof compares its moves with the region.
-  Carved _ _ _ -> []
+  Carved {} -> []
   Cutting {} -> intrusionsOfPass machined b
   Clearing {pocket = job@(Located _ p), pass, approach, cleared, retract} ->
     let clearing = plainIntruder (radius (Part.wall p))

@@ -66,7 +66,7 @@ ofBlock block = case block of
       <$> NonEmpty.nonEmpty rests
   Travelling {} -> Nothing
   Holing _ _ -> Nothing
-  Carved _ _ _ -> Nothing
+  Carved {} -> Nothing
   Commanding _ -> Nothing
 
 -- | The rest material of a pass, with the number of the pass's statement. @islands@ is empty for a

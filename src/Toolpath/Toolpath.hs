@@ -265,7 +265,7 @@ passNumbers = go 0
       Clearing {} -> True
       Travelling {} -> False
       Holing _ _ -> False
-      Carved _ _ _ -> False
+      Carved {} -> False
       Commanding _ -> False
 
 -- | The blocks of a toolpath, each with the tool in the spindle. The tool is Nothing before the
@@ -365,7 +365,7 @@ withoutCuts path = foldr seq () abridged `seq` path {blocks = abridged}
       Travelling {} -> block
       Holing _ _ -> block
       -- The proof asks for each of its moves.
-      Carved _ _ _ -> block
+      Carved {} -> block
       Commanding _ -> block
     endsAndSlopes ms = case ms of
       first :| more

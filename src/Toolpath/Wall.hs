@@ -149,7 +149,7 @@ machiningOf b = case b of
       )
   Travelling {} -> Nothing
   Holing _ _ -> Nothing
-  Carved _ _ _ -> Nothing
+  Carved {} -> Nothing
   Commanding _ -> Nothing
   where
     sideOf milling = fromRight Nothing (leadingSide milling)

@@ -112,7 +112,7 @@ intoContent path
           around cleared pass (approach <> descent) retract more
         Clearing {pass, approach, retract} -> around cleared pass approach retract more
         Holing _ _ -> go cleared more
-        Carved _ _ _ -> go cleared more
+        Carved {} -> go cleared more
         Commanding _ -> go cleared more
     around cleared pass approach retract more =
       let after = Map.insertWith min (Toolpath.number pass) (Toolpath.atHeight pass) cleared
@@ -165,7 +165,7 @@ intoHoles path =
       Cutting {approach, descent, retract} -> approach <> descent <> retract
       Clearing {approach, retract} -> approach <> retract
       Holing _ _ -> []
-      Carved _ _ _ -> []
+      Carved {} -> []
       Commanding _ -> []
     -- The hole @h@ is material at the height @z@ if no block before the block @n@ drills so deep.
     isSolid n p z h =

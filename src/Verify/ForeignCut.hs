@@ -86,5 +86,5 @@ millingOf block = case block of
   Toolpath.Clearing {Toolpath.pocket = Located _ p} -> [Part.wall p]
   Toolpath.Travelling {} -> []
   Toolpath.Holing _ _ -> []
-  Toolpath.Carved _ _ _ -> []
+  Toolpath.Carved {} -> []
   Toolpath.Commanding _ -> []
