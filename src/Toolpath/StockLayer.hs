@@ -4,7 +4,8 @@
 -- A move at feed removes the stock within the radius of its cutter, above the tip. A sloping move
 -- counts by its highest height, a vertical one by its lowest. So at each height the stock is
 -- removed in the union of the areas that the moves at or below this height sweep. It changes only
--- at the heights of moves. Between two of them the stock is a /layer/.
+-- at the heights of moves. Between two of them the stock is a /layer/. The grooves of V-carvings are
+-- left out, because each of their many slopes would be a layer.
 module Toolpath.StockLayer
   ( StockLayer (..),
     stockLayers,
@@ -100,10 +101,17 @@ sweeps path =
       | (Just cutter, b) <- Toolpath.withTools (Toolpath.setup path) (Toolpath.blocks path),
         let r = CutterBody.removalRadius cutter,
         r > Mm 0,
+        not (isCarved b),
         m <- Toolpath.moves b,
         Toolpath.pace m /= Part.Rapid,
         s <- quarters (Toolpath.segment m)
     ]
+
+-- | True for a V-carving.
+isCarved :: Toolpath.Block -> Bool
+isCarved b = case b of
+  Toolpath.Carved {} -> True
+  _ -> False
 
 -- | The radii and the paths of the moves of turning tools at feed, each with the side from which
 -- the tool comes, if it comes from one side only.
