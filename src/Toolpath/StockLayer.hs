@@ -4,8 +4,8 @@
 -- A move at feed removes the stock within the radius of its cutter, above the tip. A sloping move
 -- counts by its highest height, a vertical one by its lowest. So at each height the stock is
 -- removed in the union of the areas that the moves at or below this height sweep. It changes only
--- at the heights of moves. Between two of them the stock is a /layer/. The grooves of V-carvings are
--- left out, because each of their many slopes would be a layer.
+-- at the heights of moves. Between two of them the stock is a /layer/. The grooves of V-carvings
+-- are left out, because each of their many slopes would be a layer.
 module Toolpath.StockLayer
   ( StockLayer (..),
     stockLayers,

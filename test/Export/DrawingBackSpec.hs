@@ -50,7 +50,7 @@ spec = describe "from a drawing to a program and back" $ do
       content <- ByteString.readFile file
       let sizes = sizesOf (entitiesOf file content)
           found = sizesOf (back file content)
-      (if agree 2e-5 sizes found then [] else [(sizes, found)]) `shouldBe` []
+      [(sizes, found) | not (agree 2e-5 sizes found)] `shouldBe` []
   it "keeps areas and lengths of lines and arcs to 1e-9 (catches bulges with few digits)" $
     property $
       forAll area $ \loops ->
@@ -91,12 +91,15 @@ exported text = do
 sizesOf :: [Entity] -> [(Double, Double)]
 sizesOf entities =
   sort . filter (not . isCircle) $
-    [ (if Outline.ends o == Closed then abs (Polyarc.signedArea (Polyarc Closed ss)) else 0, lengthOf ss)
+    [ (areaOf (Outline.ends o) ss, lengthOf ss)
       | o <- Outline.outlines (Outline.joined Tolerance.joining entities),
         let ss = sconcat (fmap (PathPart.segments . Outline.part) (Outline.parts o))
     ]
   where
     isCircle (a, l) = l * l - 4 * pi * a < 1e-6 * l * l
+    areaOf closing ss = case closing of
+      Closed -> abs (Polyarc.signedArea (Polyarc Closed ss))
+      Open -> 0
     lengthOf :: NonEmpty Segment -> Double
     lengthOf ss = sum [l | s <- NonEmpty.toList ss, let Mm l = Segment.length s]
 
@@ -125,5 +128,7 @@ dxfOf loops =
       let p = Segment.start s
        in ["10", number (Vec.x p), "20", number (Vec.y p), "42", number (Segment.bulge s)]
     -- A full circle has no bulge.
-    halves s = if Segment.start s == Segment.end s then [Segment.between 0 0.5 s, Segment.between 0.5 1 s] else [s]
+    halves s
+      | Segment.start s == Segment.end s = [Segment.between 0 0.5 s, Segment.between 0.5 1 s]
+      | otherwise = [s]
     number v = Text.pack (showFFloat (Just 16) v "")
