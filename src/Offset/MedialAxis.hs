@@ -22,7 +22,7 @@ import Base.Quantity (Mm (..), Rad (..))
 import Data.List (sort)
 import Data.List.NonEmpty (NonEmpty (..))
 import Data.List.NonEmpty qualified as NonEmpty
-import Data.Maybe (fromMaybe, mapMaybe)
+import Data.Maybe (mapMaybe)
 import Data.Vector (Vector)
 import Data.Vector qualified as Vector
 import Geometry.Distance qualified as Distance
@@ -73,14 +73,21 @@ data Site
 
 -- | The sites of an area: the sides have the numbers from 0, and the corners those after them. The
 -- corner at the start of the side k has the number k plus the count of the sides.
-data Sites = Sites {sites :: Vector Site, tree :: BoxTree (Int, Site), before :: Vector Int}
+data Sites = Sites
+  { sites :: Vector Site,
+    tree :: BoxTree (Int, Site),
+    -- | the numbers of the sides before and after each side
+    before :: Vector Int,
+    after :: Vector Int
+  }
 
 sitesOf :: NonEmpty Polyarc -> Sites
 sitesOf loops =
   Sites
     { sites = list,
       tree = BoxTree.index (boxOf . snd) (zip [0 ..] (Vector.toList list)),
-      before = Vector.fromList (concat (zipWith numbersBefore firsts counts))
+      before = Vector.fromList (concat (zipWith numbersBefore firsts counts)),
+      after = Vector.fromList (concat (zipWith numbersAfter firsts counts))
     }
   where
     list = Vector.fromList (map Side (concatMap sidesOf loops) <> concatMap cornersOf loops)
@@ -88,6 +95,7 @@ sitesOf loops =
     counts = map (NonEmpty.length . segments) (NonEmpty.toList loops)
     firsts = scanl (+) 0 counts
     numbersBefore first count = (first + count - 1) : [first .. first + count - 2]
+    numbersAfter first count = [first + 1 .. first + count - 1] <> [first]
     cornersOf loop =
       let ss = sidesOf loop in zipWith corner (drop (length ss - 1) (cycle ss)) ss
     corner a b =
@@ -111,8 +119,8 @@ contact site u = case site of
 --
 -- A disc of radius r has its centre at p + r·n. For each kind of site the condition that it touches
 -- is linear in r.
-radiusBetween :: Point -> Vec -> Site -> Maybe Double
-radiusBetween p n site = case site of
+radiusBetween :: Mm -> Point -> Vec -> Site -> Maybe Double
+radiusBetween (Mm least) p n site = case site of
   Corner q _ _ -> let d = Vec.to p q in quotient (Vec.dot d d) (2 * Vec.dot n d) (const True)
   Side s@(Straight a b) ->
     let m = Vec.left (Vec.unit (Vec.to a b))
@@ -126,12 +134,11 @@ radiusBetween p n site = case site of
           else quotient (-excess) (2 * (big - Vec.dot n d)) (Segment.hasFootOf s)
   where
     quotient over under touches
-      | under <= Tolerance.tangential || r <= smallest = Nothing
+      | under <= Tolerance.tangential || r <= least = Nothing
       | touches (Vec.shift (Vec.scale r n) p) = Just r
       | otherwise = Nothing
       where
         r = over / under
-    Mm smallest = Tolerance.smallestDisc
 
 -- Following a site --------------------------------------------------------------------------------
 
@@ -148,8 +155,34 @@ data Bound
 -- | A share of a site, with the radius and the bound of the largest disc there.
 data Sample = Sample {share :: Double, radius :: Double, bound :: Bound}
 
--- | A site that is followed: the sites of the area, the largest radius, its own number, and itself.
-data Followed = Followed {around :: Sites, most :: Double, own :: Int, site :: Site}
+-- | A site that is followed: the sites of the area, the largest radius, its own number, itself, and
+-- for a side, the numbers of the sides beyond the convex corners at its start and at its end.
+data Followed = Followed
+  { around :: Sites,
+    most :: Double,
+    own :: Int,
+    site :: Site,
+    beyondStart :: Maybe Int,
+    beyondEnd :: Maybe Int
+  }
+
+-- | The site of an area with a number, which is to be followed.
+follow :: Sites -> Double -> Int -> Followed
+follow around most own =
+  Followed
+    { around,
+      most,
+      own,
+      site = sites around Vector.! own,
+      beyondStart = if isConvex own then Just (before around Vector.! own) else Nothing,
+      beyondEnd = if any isConvex next then next else Nothing
+    }
+  where
+    count = Vector.length (before around)
+    next = after around Vector.!? own
+    isConvex k = case sites around Vector.!? (k + count) of
+      Just (Corner _ _ turn) -> turn > Tolerance.tangential
+      _ -> False
 
 -- | The largest disc at a share of a site.
 sample :: Followed -> Double -> Sample
@@ -178,7 +211,7 @@ sample f u
     firstReach = most f / 64
     least s (k, other)
       | k /= own f,
-        Just r <- radiusBetween p n other,
+        Just r <- radiusTo f p n (k, other),
         r < radius s - smallest =
         Sample u r (Other k)
       | otherwise = s
@@ -187,17 +220,25 @@ sample f u
 
 -- | The number of the side beyond the convex corner at a share of a side, if it is at one.
 atConvexCorner :: Followed -> Double -> Maybe Int
-atConvexCorner Followed {around = Sites {sites, before}, own} u
-  | own >= count = Nothing
-  | u == 0 && isConvex own = Just (before Vector.! own)
-  | u == 1 && isConvex next = Just next
+atConvexCorner f u
+  | u * extent (site f) <= smallest, Just k <- beyondStart f = Just k
+  | (1 - u) * extent (site f) <= smallest = beyondEnd f
   | otherwise = Nothing
   where
-    count = Vector.length before
-    next = fromMaybe own (Vector.elemIndex own before)
-    isConvex k = case sites Vector.! (k + count) of
-      Corner _ _ turn -> turn > Tolerance.tangential
-      Side _ -> False
+    Mm smallest = Tolerance.smallestDisc
+
+-- | The length of a site in mm.
+extent :: Site -> Double
+extent s = case s of
+  Side g -> let Mm l = Segment.length g in l
+  Corner {} -> 0
+
+-- | The radius of the disc that touches a site at a point and also the site with the number @k@.
+-- Across a convex corner it may be as small as one likes.
+radiusTo :: Followed -> Point -> Vec -> (Int, Site) -> Maybe Double
+radiusTo f p n (k, other) = radiusBetween least p n other
+  where
+    least = if Just k `elem` [beyondStart f, beyondEnd f] then Mm 0 else Tolerance.smallestDisc
 
 -- | Pieces of a site, each from a share to another one, with one bound.
 pieces :: Followed -> [(Double, Double, Bound)]
@@ -240,7 +281,7 @@ radiusOf f u b = case b of
   Itself -> case site f of
     Side Arc {start, centre = o} -> let Mm big = Segment.radius o start in big
     _ -> most f
-  Other k -> case radiusBetween p n (sites (around f) Vector.! k) of
+  Other k -> case radiusTo f p n (k, sites (around f) Vector.! k) of
     Just r -> r
     Nothing -> 1 / 0
   where
@@ -257,9 +298,6 @@ shares f = dropEqual (sort (even' <> filter isInside (mapMaybe near found)))
     -- On a site that is shorter than the radius, discs between two samples are about as large.
     reach' = Mm (2 * (if extent (site f) <= widest then widest else most f))
     widest = maximum (map (radius . sample f) even')
-    extent s = case s of
-      Side g -> let Mm l = Segment.length g in l
-      Corner {} -> 0
     found = BoxTree.within (BoundingBox.inflate reach' (boxOf (site f))) (tree (around f))
     near (k, other)
       | k == own f = Nothing
@@ -293,7 +331,7 @@ branches (Mm tolerance) (Mm most) loops =
     [ concatMap (branchOf tolerance f) (pieces f)
       | (k, s) <- zip [0 ..] (Vector.toList (sites around)),
         isFollowed s,
-        let f = Followed {around, most, own = k, site = s}
+        let f = follow around most k
     ]
   where
     around = sitesOf loops

@@ -22,7 +22,7 @@ area :: Gen (NonEmpty Polyarc)
 area = do
   count <- choose (3, 12)
   radii <- vectorOf count (elements [20, 25, 31, 40, 57])
-  bulges <- vectorOf count (elements [0, 0, 0, 0.3, -0.1, -0.2])
+  bulges <- vectorOf count (elements [0, 0, 0, 0.3, -0.1, -0.2, 1e-3, -1e-4])
   turn <- choose (0, 1)
   hole <- elements [[], [Polyarc Closed (ring :| [])], [square]]
   let corners = [corner turn count i r | (i, r) <- zip [0 :: Int ..] radii]
