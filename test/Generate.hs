@@ -24,7 +24,7 @@ where
 
 import Base.Name (Name (..))
 import Base.PulseVector (Pulses3 (..))
-import Base.Quantity (Feed (..), LengthUnit (..), Mm (..), Pulses (..), Rad (..))
+import Base.Quantity (Feed (..), LengthUnit (..), Mm (..), Pulses (..), Rad (..), plus)
 import Base.Region (Located (..), Region (..))
 import Base.Result qualified as Result
 import Data.List (sort)
@@ -285,7 +285,7 @@ partOf at operation =
       Part.Command _ -> Nothing
     tool kind r = Part.Cutter kind r Nothing Nothing r Part.plainBody
     vBit c =
-      (tool Part.VBitCutter (Part.carvingRadius c))
+      (tool Part.VBitCutter (plus (Part.carvingTip c) (Part.carvingDepth c)))
         { Part.tipRadius = Part.carvingTip c,
           Part.body =
             Part.plainBody {Part.pointAngle = Just (Rad (let Rad a = Part.halfAngle c in 2 * a))}

@@ -183,9 +183,10 @@ holing machine n (Located region d) = run
     limit = maybe (Mm 0) (uncurry min . Part.deviationLimits . snd) (Part.runsOf d)
 
 -- | The run of a move of a V-carving, which is block @n@. The chords of arcs keep the smaller limit
--- of the tolerance.
+-- of the tolerance. The radius is that of the tip: the proof compares the cone with the region that
+-- is carved, and with other contours only the tip.
 carved :: Int -> Carving -> Move -> Instruction
-carved n c m = Run (Carving n) (Sagitta limit) (Part.carvingRadius c) 0 AsProgrammed (m :| [])
+carved n c m = Run (Carving n) (Sagitta limit) (Part.carvingTip c) 0 AsProgrammed (m :| [])
   where
     limit = uncurry min (Part.deviationLimits (Part.carvingTolerance c))
 

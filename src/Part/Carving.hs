@@ -26,7 +26,7 @@ import Part.Parameter qualified as Parameter
 import Part.Part
   ( Carving (..),
     Contour (elements),
-    Cutter (cutterRadius, tipRadius),
+    Cutter (tipRadius),
     RestPolicy (..),
     ToolBody (pointAngle),
   )
@@ -63,7 +63,6 @@ carving context at e settings = do
           Carving
             { carvedAreas = fmap (\p -> (outer p, holes p)) (first :| more),
               carvingTip = tipRadius tool,
-              carvingRadius = cutterRadius tool,
               halfAngle = Rad (point / 2),
               carvingDepth = deep,
               carvingDepthAt = region depthAt,

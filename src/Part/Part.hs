@@ -527,8 +527,6 @@ data Carving = Carving
     carvedAreas :: NonEmpty (Contour, [Contour]),
     -- | the radius of the tool at its tip
     carvingTip :: Mm,
-    -- | the radius of the tool at the top of its flank
-    carvingRadius :: Mm,
     -- | the angle between the flank and the axis, above 0 and below a right angle
     halfAngle :: Rad,
     -- | the largest depth of the tip below the top of the part, above 0, and at most the height of

@@ -49,7 +49,7 @@ quantise machine path =
       Toolpath.Travelling r _ ms -> map (Linking,r,) ms
       Toolpath.Holing (Located _ d) ms -> map (Drilling n,Part.drillRadius d,) ms
       Toolpath.Carved (Located _ c) ms _ ->
-        map (Carving n,Part.carvingRadius c,) (NonEmpty.toList ms)
+        map (Carving n,Part.carvingTip c,) (NonEmpty.toList ms)
       Toolpath.Commanding _ -> []
       Toolpath.Clearing
         { Toolpath.pocket = Located _ pocket,
