@@ -1,8 +1,11 @@
 {-# LANGUAGE ForeignFunctionInterface #-}
 
 -- | The glyphs of a text from the bytes of a TrueType or OpenType font, in the units of the font
--- and without hints. The library FreeType reads them, by the foreign call in @truetype.c@. The call
--- keeps nothing, so its result depends on the bytes and the text only.
+-- and without hints. The library FreeType reads them, by the foreign call in @truetype.c@.
+--
+-- The call reads no file, no setting and no clock, and keeps nothing. Its result depends on the
+-- bytes and the text only, so 'glyphs' is a pure function, by 'unsafePerformIO'. It has to be one:
+-- an import also runs without IO, on the texts that an editor holds ("Query.Snapshot").
 module Font.TrueType
   ( GlyphRun (..),
     Glyph (..),
@@ -24,7 +27,16 @@ import Data.Int (Int32)
 import Data.Text (Text)
 import Data.Text qualified as Text
 import Data.Word (Word32)
-import Foreign (Ptr, alloca, free, peek, peekArray, withArrayLen)
+import Foreign
+  ( Ptr,
+    alloca,
+    finalizerFree,
+    newForeignPtr,
+    peek,
+    peekArray,
+    withArrayLen,
+    withForeignPtr,
+  )
 import Foreign.C.Types (CChar, CInt (..), CSize (..))
 import Geometry.Vec (Point)
 import Geometry.Vec qualified as Vec
@@ -102,7 +114,8 @@ glyphs font text
       (0, numbers) -> Right (runOf (Text.length text) numbers)
       (code, _) -> Left (faultOf code)
 
--- | The result of the foreign call and its numbers, which this function copies and frees.
+-- | The result of the foreign call and its numbers. They are copied, and the memory of the call is
+-- freed when nothing refers to it, also if the thread is stopped while they are copied.
 numbersOf :: ByteString -> Text -> IO (CInt, [Int])
 numbersOf font text =
   Unsafe.unsafeUseAsCStringLen font $ \(bytes, size) ->
@@ -111,10 +124,9 @@ numbersOf font text =
         alloca $ \lengthOf -> do
           code <-
             partcFontText bytes (fromIntegral size) characters (fromIntegral count) result lengthOf
-          numbers <- peek result
+          numbers <- newForeignPtr finalizerFree =<< peek result
           n <- peek lengthOf
-          copied <- peekArray (fromIntegral n) numbers
-          free numbers
+          copied <- withForeignPtr numbers (peekArray (fromIntegral n))
           pure (code, map fromIntegral copied)
 
 -- | The fault of a result of the foreign call.

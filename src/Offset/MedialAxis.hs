@@ -114,8 +114,9 @@ contact site u = case site of
   Side s -> (Segment.at u s, Vec.left (Segment.directionAt u s))
   Corner p n turn -> (p, Vec.rotate (Rad (u * turn)) n)
 
--- | The radius of the disc that touches one site at the point @p@, with the unit normal @n@ into
--- the area there, and that touches another site; Nothing if no such disc touches it from the area.
+-- | The radius in mm of the disc that touches one site at the point @p@, with the unit normal @n@
+-- into the area there, and that touches another site; Nothing if no such disc touches it from the
+-- area, or if the radius is not above the first argument.
 --
 -- A disc of radius r has its centre at p + r·n. For each kind of site the condition that it touches
 -- is linear in r.
@@ -348,8 +349,8 @@ branchOf tolerance f (a, b, bound') = case bound' of
   _ -> [straight a (discAt a) b (discAt b)]
   where
     first = discRadius (discAt a)
-    isLevel = all (\t -> abs (discRadius (discAt (a + t * (b - a))) - first) <= smallest) thirds
-    thirds = [0.25, 0.5, 1]
+    isLevel = all (\t -> abs (discRadius (discAt (a + t * (b - a))) - first) <= smallest) compared
+    compared = [0.25, 0.5, 1]
     Mm smallest = Tolerance.smallestDisc
     discAt u =
       let (p, n) = contact (site f) u

@@ -70,7 +70,6 @@ carving context at e settings = do
               carvingFeed = feed,
               carvingPlunge = plunge,
               carvingTravel = travel,
-              carvingTop = Mm 0,
               carvingRest = maybe Refused (const Allowed) (Checked.restAllowed settings)
             }
   where

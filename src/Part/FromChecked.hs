@@ -119,7 +119,6 @@ under :: Maybe (Located Solid) -> Operation -> Operation
 under stock operation = case (stock, operation) of
   (Just (Located _ s), Mill (Located r m)) -> Mill (Located r (m `from` s))
   (Just (Located _ s), Pocket (Located r p)) -> Pocket (Located r p {wall = wall p `from` s})
-  (Just (Located _ s), Carve (Located r c)) -> Carve (Located r c {carvingTop = above s})
   _ -> operation
   where
     above s = max (Mm 0) (highest s)

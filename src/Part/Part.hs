@@ -540,8 +540,6 @@ data Carving = Carving
     carvingPlunge :: Maybe (Located CutFeed),
     -- | the height of rapid moves over the part
     carvingTravel :: Mm,
-    -- | the height at which the material begins: 0, or the top of the stock if that is higher
-    carvingTop :: Mm,
     carvingRest :: RestPolicy
   }
   deriving stock (Eq, Show)
