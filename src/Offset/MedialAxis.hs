@@ -19,10 +19,10 @@ module Offset.MedialAxis
 where
 
 import Base.Quantity (Mm (..), Rad (..))
-import Data.List (sort)
+import Data.List (sortOn)
 import Data.List.NonEmpty (NonEmpty (..))
 import Data.List.NonEmpty qualified as NonEmpty
-import Data.Maybe (mapMaybe)
+import Data.Maybe (fromMaybe, mapMaybe)
 import Data.Vector (Vector)
 import Data.Vector qualified as Vector
 import Geometry.Distance qualified as Distance
@@ -117,29 +117,50 @@ contact site u = case site of
 -- | The radius in mm of the disc that touches one site at the point @p@, with the unit normal @n@
 -- into the area there, and that touches another site; Nothing if no such disc touches it from the
 -- area, or if the radius is not above the first argument.
+radiusBetween :: Mm -> Point -> Vec -> Site -> Maybe Double
+radiusBetween (Mm least) p n site = case carrierRadius p n site of
+  Just r | r > least && touches site (Vec.shift (Vec.scale r n) p) -> Just r
+  _ -> Nothing
+  where
+    touches (Side s) c = Segment.hasFootOf s c
+    touches Corner {} _ = True
+
+-- | The radius in mm of the disc that touches one site at the point @p@, with the unit normal @n@
+-- into the area there, and the whole line or circle of another site; Nothing if there is none.
 --
 -- A disc of radius r has its centre at p + r·n. For each kind of site the condition that it touches
 -- is linear in r.
-radiusBetween :: Mm -> Point -> Vec -> Site -> Maybe Double
-radiusBetween (Mm least) p n site = case site of
-  Corner q _ _ -> let d = Vec.to p q in quotient (Vec.dot d d) (2 * Vec.dot n d) (const True)
-  Side s@(Straight a b) ->
+carrierRadius :: Point -> Vec -> Site -> Maybe Double
+carrierRadius p n site = case site of
+  Corner q _ _ -> let d = Vec.to p q in quotient (Vec.dot d d) (2 * Vec.dot n d)
+  Side (Straight a b) ->
     let m = Vec.left (Vec.unit (Vec.to a b))
-     in quotient (Vec.dot m (Vec.to a p)) (1 - Vec.dot m n) (Segment.hasFootOf s)
-  Side s@Arc {start, centre = o, sweep = Rad w} ->
+     in quotient (Vec.dot m (Vec.to a p)) (1 - Vec.dot m n)
+  Side Arc {start, centre = o, sweep = Rad w} ->
     let Mm big = Segment.radius o start
         d = Vec.to o p
         excess = big * big - Vec.dot d d
      in if w > 0
-          then quotient excess (2 * (big + Vec.dot n d)) (Segment.hasFootOf s)
-          else quotient (-excess) (2 * (big - Vec.dot n d)) (Segment.hasFootOf s)
+          then quotient excess (2 * (big + Vec.dot n d))
+          else quotient (-excess) (2 * (big - Vec.dot n d))
   where
-    quotient over under touches
-      | under <= Tolerance.tangential || r <= least = Nothing
-      | touches (Vec.shift (Vec.scale r n) p) = Just r
-      | otherwise = Nothing
-      where
-        r = over / under
+    quotient over under
+      | under <= Tolerance.tangential = Nothing
+      | otherwise = Just (over / under)
+
+-- | The distance in mm along the line or the arc of a side, or nearly so, from an end of it to the
+-- foot of the point @c@. It is positive beyond the end, which is the last point of the side if
+-- @isLast@ is true, else the first one.
+beyond :: Bool -> Segment -> Point -> Double
+beyond isLast s c = case s of
+  Straight _ _ -> Vec.dot outward (Vec.to end' c)
+  Arc {centre = o} ->
+    let Mm far = Vec.distance o c
+        Mm big = Segment.radius o end'
+     in if far > 0 then big * Vec.dot outward (Vec.to o c) / far else 0
+  where
+    end' = if isLast then Segment.end s else Segment.start s
+    outward = if isLast then Segment.endDirection s else Vec.scale (-1) (Segment.startDirection s)
 
 -- Following a site --------------------------------------------------------------------------------
 
@@ -175,15 +196,17 @@ follow around most own =
       most,
       own,
       site = sites around Vector.! own,
-      beyondStart = if isConvex own then Just (before around Vector.! own) else Nothing,
-      beyondEnd = if any isConvex next then next else Nothing
+      beyondStart = if isConvex around own then Just (before around Vector.! own) else Nothing,
+      beyondEnd = if any (isConvex around) next then next else Nothing
     }
   where
-    count = Vector.length (before around)
     next = after around Vector.!? own
-    isConvex k = case sites around Vector.!? (k + count) of
-      Just (Corner _ _ turn) -> turn > Tolerance.tangential
-      _ -> False
+
+-- | True for a side with a convex corner at its start.
+isConvex :: Sites -> Int -> Bool
+isConvex around k = case sites around Vector.!? (k + Vector.length (before around)) of
+  Just (Corner _ _ turn) -> turn > Tolerance.tangential
+  _ -> False
 
 -- | The largest disc at a share of a site.
 sample :: Followed -> Double -> Sample
@@ -243,62 +266,110 @@ radiusTo f p n (k, other) = radiusBetween least p n other
 
 -- | Pieces of a site, each from a share to another one, with one bound.
 pieces :: Followed -> [(Double, Double, Bound)]
-pieces f = joined (concat (zipWith between samples (drop 1 samples)))
+pieces f = joined (concat (zipWith between found (drop 1 found)))
   where
-    samples = map (sample f) (shares f)
-    between a b
-      | bound a == bound b = [(share a, share b, bound a)]
-      | share b - share a <= Tolerance.finestShare = [(share a, share b, bound a)]
-      | otherwise = between a m <> between m b
-      where
-        m = sample f (crossing f a b)
+    found = samples f
+    between a b = case crossing f a b of
+      _ | isOne a b -> [(share a, share b, bound a)]
+      Just w
+        | bound m == bound a && bound n == bound b ->
+          [piece | piece@(u, v, _) <- [(share a, w, bound a), (w, share b, bound b)], v > u]
+        | otherwise -> halved a m <> halved m n <> halved n b
+        where
+          m = if w - near' > share a then sample f (w - near') else a
+          n = if w + near' < share b then sample f (w + near') else b
+      Nothing -> halved a b
+    halved a b
+      | isOne a b = [(share a, share b, bound a)]
+      | otherwise = let m = sample f ((share a + share b) / 2) in between a m <> between m b
+    isOne a b = bound a == bound b || share b - share a <= Tolerance.finestShare
+    near' = Tolerance.crossingShare
     joined list = case list of
       (a, _, x) : (_, b, y) : more | x == y -> joined ((a, b, x) : more)
       one : more -> one : joined more
       [] -> []
 
--- | The share at which the bounds of two samples give equal radii, or the middle if this share is
--- not between them. Steps of the Illinois method, a form of regula falsi.
-crossing :: Followed -> Sample -> Sample -> Double
-crossing f a b = go (12 :: Int) (share a) (difference (share a)) (share b) (difference (share b))
+-- | The share between two samples at which the bound changes from that of the first one to that of
+-- the second one; Nothing if none is found. Steps of the Illinois method, a form of regula falsi.
+crossing :: Followed -> Sample -> Sample -> Maybe Double
+crossing f a b = go (20 :: Int) (0 :: Int) (share a) (test (share a)) (share b) (test (share b))
   where
-    difference u = radiusOf f u (bound a) - radiusOf f u (bound b)
-    middle = (share a + share b) / 2
+    test = fromMaybe difference (jointTest f (bound a) (bound b))
+    -- Of radii that are equal but for 'Tolerance.smallestDisc', the bound that comes first is taken.
+    difference u = carrierRadiusOf f u (bound a) - carrierRadiusOf f u (bound b) - preference
+    preference = if isBefore (bound a) (bound b) then smallest else -smallest
+    isBefore (Other i) (Other j) = i < j
+    isBefore _ (Other _) = True
+    isBefore _ _ = False
     Mm smallest = Tolerance.smallestDisc
-    go steps u du v dv
-      | not (du < 0 && dv > 0) || isInfinite du || isInfinite dv = middle
-      | steps == 0 || abs dw <= smallest = inside w
-      | dw < 0 = go (steps - 1) w dw v (dv / 2)
-      | otherwise = go (steps - 1) u (du / 2) w dw
+    -- The end that stays for a second time counts half. @side@ is the sign of the last step's value.
+    go steps side u du v dv
+      | du > 0 || dv < 0 || isInfinite du || isInfinite dv || du == dv = Nothing
+      | steps == 0 || abs dw <= 0.1 * smallest && isNear = Just w
+      | dw < 0 = go (steps - 1) (-1) w dw v (if side < 0 then dv / 2 else dv)
+      | otherwise = go (steps - 1) 1 u (if side > 0 then du / 2 else du) w dw
       where
         w = u - du * (v - u) / (dv - du)
-        dw = difference w
-    inside w = if w > share a && w < share b then w else middle
+        dw = test w
+        isNear = min (w - u) (v - w) <= Tolerance.crossingShare
+
+-- | For the bounds of two consecutive elements without a convex corner between them: a number for
+-- each share that is negative where the disc touches the first of them, and positive where it
+-- touches the second one. Both radii are equal at their joint, but do not cross there.
+jointTest :: Followed -> Bound -> Bound -> Maybe (Double -> Double)
+jointTest f x y = case (x, y) of
+  (Other i, Other j)
+    | isSide i && isEnd i j -> Just (past True i)
+    | isSide i && isStart i j -> Just (past False i)
+    | isSide j && isEnd j i -> Just (negate . past True j)
+    | isSide j && isStart j i -> Just (negate . past False j)
+  _ -> Nothing
+  where
+    count = Vector.length (before (around f))
+    isSide k = k < count
+    following k = after (around f) Vector.! k
+    isEnd k other = not (isConvex (around f) (following k)) && other `elem` [following k, following k + count]
+    isStart k other = not (isConvex (around f) k) && other `elem` [before (around f) Vector.! k, k + count]
+    past isLast k u = case sites (around f) Vector.! k of
+      Side s | Just r <- carrierRadius p n (Side s) -> beyond isLast s (Vec.shift (Vec.scale r n) p)
+      _ -> 1 / 0
+      where
+        (p, n) = contact (site f) u
 
 -- | The radius that a bound gives at a share of a site; very large if it gives none there.
 radiusOf :: Followed -> Double -> Bound -> Double
-radiusOf f u b = case b of
+radiusOf f u = radiusBy f $ \k -> radiusTo f p n (k, sites (around f) Vector.! k)
+  where
+    (p, n) = contact (site f) u
+
+-- | The radius as 'radiusOf' gives it, but for the whole line or circle of the bound.
+carrierRadiusOf :: Followed -> Double -> Bound -> Double
+carrierRadiusOf f u = radiusBy f $ \k -> carrierRadius p n (sites (around f) Vector.! k)
+  where
+    (p, n) = contact (site f) u
+
+-- | The radius of a bound; very large if there is none. @other@ gives that of another site.
+radiusBy :: Followed -> (Int -> Maybe Double) -> Bound -> Double
+radiusBy f other b = case b of
   Limit -> most f
   Itself -> case site f of
     Side Arc {start, centre = o} -> let Mm big = Segment.radius o start in big
     _ -> most f
-  Other k -> case radiusTo f p n (k, sites (around f) Vector.! k) of
-    Just r -> r
-    Nothing -> 1 / 0
-  where
-    (p, n) = contact (site f) u
+  Other k -> fromMaybe (1 / 0) (other k)
 
--- | The shares of a site at which it is sampled first, in ascending order: some at even distances,
--- and those at which it is nearest to another site, if one of them is convex.
-shares :: Followed -> [Double]
-shares f = dropEqual (sort (even' <> filter isInside (mapMaybe near found)))
+-- | The first samples of a site, in the order of their shares: some at even distances, and those at
+-- which it is nearest to another site, if one of them is convex.
+samples :: Followed -> [Sample]
+samples f = map snd (dropEqual (sortOn fst (evenly <> map sampled others)))
   where
-    even' = [fromIntegral k / fromIntegral evenCount | k <- [0 .. evenCount]]
-    evenCount = 4 :: Int
+    sampled u = (u, sample f u)
+    evenly = [sampled (fromIntegral k / fromIntegral count) | k <- [0 .. count]]
+    count = 4 :: Int
+    others = filter isInside (mapMaybe near found)
     isInside u = u > Tolerance.finestShare && u < 1 - Tolerance.finestShare
     -- On a site that is shorter than the radius, discs between two samples are about as large.
     reach' = Mm (2 * (if extent (site f) <= widest then widest else most f))
-    widest = maximum (map (radius . sample f) even')
+    widest = maximum (map (radius . snd) evenly)
     found = BoxTree.within (BoundingBox.inflate reach' (boxOf (site f))) (tree (around f))
     near (k, other)
       | k == own f = Nothing
@@ -314,11 +385,11 @@ shares f = dropEqual (sort (even' <> filter isInside (mapMaybe near found)))
     towards q = case site f of
       Side s -> Segment.fraction s q
       Corner p n turn -> let Rad a = Vec.signedAngle n (Vec.to p q) in a / turn
-    dropEqual us = case us of
+    dropEqual list = case list of
       a : b : more
-        | b - a <= Tolerance.finestShare -> dropEqual (a : more)
+        | fst b - fst a <= Tolerance.finestShare -> dropEqual (a : more)
         | otherwise -> a : dropEqual (b : more)
-      _ -> us
+      _ -> list
 
 -- Branches ----------------------------------------------------------------------------------------
 

@@ -11,6 +11,7 @@ module Offset.Tolerance
     tangential,
     smallestDisc,
     finestShare,
+    crossingShare,
   )
 where
 
@@ -72,3 +73,8 @@ smallestDisc = Mm 1e-9
 -- | The share of an element of a boundary below which the medial axis is not divided further.
 finestShare :: Double
 finestShare = 1e-12
+
+-- | The share of an element of a boundary within which the place is computed where the medial axis
+-- passes from one bound of its discs to the next.
+crossingShare :: Double
+crossingShare = 1e-8

@@ -4,7 +4,7 @@
 -- A motion cuts, at the top of the part, a disc about each position of its centre. The radius of
 -- the disc grows evenly with the depth. So on a straight motion the least distance of the disc from
 -- a point is at an end of the motion, or where the derivative of its distance vanishes. This has a
--- closed form.
+-- closed form. From a line or an arc it can also be least where the motion crosses it.
 module Verify.CarvingCheck
   ( carvingFindings,
   )
@@ -20,6 +20,7 @@ import Data.Semigroup (sconcat)
 import Frame.Frame (FrameProgram)
 import Frame.Frame qualified as Frame
 import Geometry.Distance qualified as Distance
+import Geometry.Index.BoundingBox (BoundingBox)
 import Geometry.Index.BoundingBox qualified as BoundingBox
 import Geometry.Index.BoxTree (BoxTree)
 import Geometry.Index.BoxTree qualified as BoxTree
@@ -45,6 +46,8 @@ data Carved = Carved
     carving :: Carving,
     -- | the segments of each area, with the area on their left
     areas :: [NonEmpty Segment],
+    -- | the areas by their bounding boxes
+    areaTree :: BoxTree (BoundingBox, NonEmpty Segment),
     -- | all segments
     edges :: BoxTree Segment,
     -- | the deviation in mm that is allowed at the top of the part
@@ -78,8 +81,10 @@ carvingFindings machine path program isAligned toolsIn motions =
     roles = IntMap.fromList (zip [1 ..] (map Frame.role (Frame.plannedFrames program)))
     isNear c m = BoundingBox.meets (Motion.box m) (boxOf c)
     boxOf c =
-      foldr1 BoundingBox.union (sconcat (fmap boxes (Part.carvedAreas c)))
-    boxes = fmap BoundingBox.ofSegment . segmentsOf
+      boxAround (sconcat (fmap segmentsOf (Part.carvedAreas c)))
+
+boxAround :: NonEmpty Segment -> BoundingBox
+boxAround = foldr1 BoundingBox.union . fmap BoundingBox.ofSegment
 
 segmentsOf :: (Part.Contour, [Part.Contour]) -> NonEmpty Segment
 segmentsOf (outline, holes) =
@@ -92,6 +97,7 @@ carvedOf machine statement carving =
     { statement,
       carving,
       areas,
+      areaTree = BoxTree.index fst [(boxAround ss, ss) | ss <- areas],
       edges = BoxTree.index BoundingBox.ofSegment (concatMap NonEmpty.toList areas),
       allowed = most + pulse + pulseZ * slope carving
     }
@@ -117,29 +123,38 @@ findingsOf carved ms =
   take
     1
     [ CarvesBeyond (number m) p (Mm far) (statement carved)
-      | m <- ms,
-        Just (p, far) <- [beyond carved m]
+      | (before, m) <- zip (Nothing : map Just ms) ms,
+        Just (p, far) <- [beyond carved before m]
     ]
     <> take 1 [EdgeNotCarved (statement carved) p | p <- uncarved carved ms]
 
 -- The cone ----------------------------------------------------------------------------------------
 
 -- | A point beyond the edges of the area to which the cone of a motion cuts, and the distance from
--- there to the edge, if it is more than is allowed.
-beyond :: Carved -> CutterMotion -> Maybe (Point, Double)
-beyond carved m
+-- there to the edge, if it is more than is allowed. @before@ is the motion before it.
+--
+-- A disc that is larger than is allowed cannot get to the other side of an edge without going
+-- beyond the edge on its way. So the side is looked for only where discs become so large, and where
+-- a motion does not go on from the one before it.
+beyond :: Carved -> Maybe CutterMotion -> CutterMotion -> Maybe (Point, Double)
+beyond carved before m
   | far > allowed carved = Just (p, far)
-  | otherwise = case filter isOutside ends of
+  | otherwise = case filter isOutside unknown of
     (q, r) : _ -> Just (q, r)
     [] -> Nothing
   where
     c = carving carved
-    (from, to) = Motion.heights m
-    (r0, r1) = (radiusAt c from, radiusAt c to)
+    (begin, stop) = endDiscs c m
+    (r0, r1) = (snd begin, snd stop)
     paths = Motion.pathList m
-    ends = [(Segment.start (segment m), r0), (Segment.end (segment m), r1)]
-    isOutside (q, r) =
-      r > allowed carved && all (\ss -> WindingNumber.about q ss /= 1) (areas carved)
+    isLarge (_, r) = r > allowed carved
+    unknown
+      | isLarge begin = [begin | fmap (snd . endDiscs c) before /= Just begin]
+      | otherwise = filter isLarge [stop]
+    isOutside (q, _) =
+      all
+        (\(_, ss) -> WindingNumber.about q ss /= 1)
+        (BoxTree.within (BoundingBox.ofPoints q []) (areaTree carved))
     near path =
       BoxTree.within (BoundingBox.inflate widest (BoundingBox.ofSegment path)) (edges carved)
     widest = Mm (max 0 (max r0 r1))
@@ -149,11 +164,18 @@ beyond carved m
         (0, Segment.start (segment m))
         [overlap (path, r0, r1) e | path <- paths, e <- near path]
 
+-- | The centre and the radius of the disc at the beginning and at the end of a motion.
+endDiscs :: Carving -> CutterMotion -> ((Point, Double), (Point, Double))
+endDiscs c m = ((Segment.start (segment m), radiusAt c from), (Segment.end (segment m), radiusAt c to))
+  where
+    (from, to) = Motion.heights m
+
 -- | The largest amount by which the discs along a path go beyond an edge, and the centre of the
 -- disc that does. The radius changes evenly along the path.
 overlap :: (Segment, Double, Double) -> Segment -> (Double, Point)
 overlap (path, r0, r1) edge = case path of
-  Straight a b -> maximum' [over t a b | t <- 0 : 1 : concatMap (stationary a b) centres]
+  Straight a b ->
+    maximum' [over t a b | t <- 0 : 1 : map crossing crossings <> concatMap (stationary a b) centres]
   Arc {} ->
     let closest = Distance.segments path edge
         Mm d = Distance.distance closest
@@ -164,6 +186,8 @@ overlap (path, r0, r1) edge = case path of
       let q = Vec.interpolate t a b
           Mm d = Distance.toPoint q edge
        in (r0 + t * (r1 - r0) - d, q)
+    crossings = Distance.intersections path edge
+    crossing p = min 1 (max 0 (Segment.fraction path p))
     centres = case edge of
       Straight x y -> [x, y]
       Arc {start = x, end = y, centre = o} -> [x, y, o]

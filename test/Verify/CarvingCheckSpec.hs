@@ -48,6 +48,20 @@ spec = do
       forAllBlind carved $ \(text, path, program) ->
         forAll (elements (longChains program)) $ \(n, up) ->
           refused text path program "E0748" [(n, deviation), (up, -deviation)]
+  it
+    "a move from groove to groove goes beyond the edges (catches edges that are crossed unseen)"
+    $ withMaxSuccess count $
+      forAllBlind twoGrooves $ \(text, (path, program), pitch) ->
+        let frames = map Frame.frame (Frame.plannedFrames program)
+            n = longest (places isAlong program) program
+            (front, rest) = splitAt n frames
+            long = frames !! n
+            half = halved (increment long)
+            step v = long {increment = v}
+            aside x = step (Pulses3 (Pulses x) 0 0)
+            altered = [step half, aside pitch, aside (-pitch), step (increment long - half)]
+            found = codesOf path program (front <> altered <> drop 1 rest)
+         in counterexample (Text.unpack text <> show (n, found)) ("E0747" `elem` found)
   where
     deviation = 300
     refused text path program code changes =
@@ -75,6 +89,10 @@ spec = do
         | (n, up) <- zip (places isDown program) (places isUp program),
           sum (map lengthOf (take (up - n) (drop n (Frame.plannedFrames program)))) > 5000
       ]
+    halved (Pulses3 (Pulses x) (Pulses y) z) =
+      Pulses3 (Pulses (x `div` 2)) (Pulses (y `div` 2)) z
+    longest list program =
+      snd (maximum [(lengthOf (Frame.plannedFrames program !! k), k) | k <- list])
     lengthOf f = let Pulses3 (Pulses x) (Pulses y) _ = increment (Frame.frame f) in abs x + abs y
     raised changes frames =
       [ f {increment = increment f + Pulses3 0 0 (Pulses (sum [z | (k, z) <- changes, k == n]))}
@@ -123,8 +141,39 @@ carved = do
   case taped text of
     Nothing -> carved
     Just (path, program) -> pure (text, path, program)
-  where
-    number v = Text.pack (showFFloat (Just 3) (v :: Double) "")
+
+-- | A program that carves two slanted grooves side by side, its toolpath and its planned frames, and
+-- the distance in pulses from one groove to the other along x.
+twoGrooves :: Gen (Text, (Toolpath, FrameProgram), Int)
+twoGrooves = do
+  slant <- choose (-40, 40)
+  width <- choose (3, 8)
+  wall <- choose (0.3, 2)
+  let pitch = fromIntegral (round (1000 * (width + wall)) :: Int) / 1000 :: Double
+      groove name x =
+        "contour " <> name <> " closed { "
+          <> Text.unwords
+            [ "(" <> number (x + a) <> ", " <> number b <> ")"
+              | (a, b) <- [(0, 0), (width, 0), (slant + width, 40), (slant, 40)]
+            ]
+          <> " }"
+      text =
+        Text.unlines
+          [ "part p",
+            "machine iso6983",
+            "tool 1 vbit(angle 60, tip 0, diameter 60)",
+            "feed 300",
+            "tolerance 0.02",
+            "clearance 2",
+            "from (0, 0, 2)",
+            groove "a" 0,
+            groove "b" pitch,
+            "vcarve region([a, b]) { depth 12 }"
+          ]
+  maybe twoGrooves (\made -> pure (text, made, round (1000 * pitch))) (taped text)
+
+number :: Double -> Text
+number v = Text.pack (showFFloat (Just 3) v "")
 
 -- | The toolpath and the planned frames of a text; Nothing if it has an error.
 taped :: Text -> Maybe (Toolpath, FrameProgram)
