@@ -175,7 +175,12 @@ module.exports = grammar({
       )),
       optional(seq('align', choice('left', 'centre', 'right'))),
     )),
-    vcarve: $ => seq('vcarve', field('region', $._expression), $.settings),
+    vcarve: $ => seq(
+      'vcarve',
+      field('region', $._expression),
+      optional(seq('as', field('name', $.name))),
+      $.settings,
+    ),
     drill: $ => seq('drill', 'at', $._expression, 'depth', $._expression, optional($.settings)),
     hole: $ => seq(
       choice(

@@ -204,7 +204,7 @@ typedExpressions s = case value s of
   RestOf e f settings -> (Nothing, e) : (Just Type.len, f) : concatMap typedSetting settings
   Face e f settings -> (Nothing, e) : (Just Type.len, f) : concatMap typedSetting settings
   DrawnText _ _ text -> typedLettering text
-  Vcarve e settings -> (Nothing, e) : concatMap typedSetting settings
+  Vcarve e _ settings -> (Nothing, e) : concatMap typedSetting settings
   Engrave text settings -> typedLettering text <> concatMap typedSetting settings
   Contour {} -> concatMap typedItem (SyntaxWalk.itemsOf s)
   LetValue _ _ -> []

@@ -194,8 +194,7 @@ statement env (Located at s) = case s of
     one (clearing env Checked.Face "face" (outlined env e) stepover options)
   Surface.Engrave text options ->
     one (liftA2 Checked.Engrave <$> Lettering.check env text <*> settings "engrave" options)
-  Surface.Vcarve e options ->
-    one (liftA2 Checked.Vcarve <$> outlined env e <*> settings "vcarve" options)
+  Surface.Vcarve e own options -> done (carving env e own options)
   Surface.Drill points depth options ->
     one $ do
       (columns, points') <- pointOrPoints env points
@@ -266,12 +265,28 @@ pocketing ::
   Maybe (Located Name) ->
   [Surface.Setting] ->
   Infer (Maybe (Deferred Checked.Statement_))
-pocketing env e stepover own options = case own of
-  Nothing -> Inference.separately inside
-  Just name -> defining name (const (Value (region name) Type.Clearing)) inside
+pocketing env e stepover own options = operation own inside
   where
     inside = clearing env make "pocket" (outlined env e) stepover options
     make e' stepover' = Checked.Pocket e' stepover' own
+
+-- | Checks a V-carving, and binds its name if it has one.
+carving ::
+  TypingEnvironment ->
+  Surface.Expr ->
+  Maybe (Located Name) ->
+  [Surface.Setting] ->
+  Infer (Maybe (Deferred Checked.Statement_))
+carving env e own options = operation own (liftA2 make <$> outlined env e <*> checked)
+  where
+    checked = Settings.check env "vcarve" options
+    make e' = Checked.Vcarve e' own
+
+-- | Checks an operation, and binds its name if it has one.
+operation :: Maybe (Located Name) -> Infer (Deferred a) -> Infer (Maybe (Deferred a))
+operation own inside = case own of
+  Nothing -> Inference.separately inside
+  Just name -> defining name (const (Value (region name) Type.Clearing)) inside
 
 -- | Checks a statement that clears something with a stepover. @word@ is its first word, and @make@
 -- makes it from what it clears, the stepover and the settings.

@@ -167,8 +167,8 @@ data Statement_
     Face Expr Expr Settings
   | -- | the text, and the settings
     Engrave Engraving Settings
-  | -- | the region to carve, and the settings
-    Vcarve Expr Settings
+  | -- | the region to carve, the name of the operation, and the settings
+    Vcarve Expr (Maybe (Located Name)) Settings
   | Turn Expr (Located Side) Settings
   | -- | the point or the list of points, the depth in mm, and the settings
     Drill Expr Expr Settings

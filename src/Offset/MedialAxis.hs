@@ -208,9 +208,10 @@ isConvex around k = case sites around Vector.!? (k + Vector.length (before aroun
   Just (Corner _ _ turn) -> turn > Tolerance.tangential
   _ -> False
 
--- | The largest disc at a share of a site.
-sample :: Followed -> Double -> Sample
-sample f u
+-- | The largest disc at a share of a site. @expected@ is a guess of its radius in mm, near which
+-- the search begins.
+sample :: Followed -> Double -> Double -> Sample
+sample f expected u
   | Just neighbour <- atConvexCorner f u = Sample u 0 (Other neighbour)
   | otherwise = within firstReach
   where
@@ -232,7 +233,7 @@ sample f u
     boxAbout r =
       let c = Vec.shift (Vec.scale r n) p
        in BoundingBox (Vec.x c - r) (Vec.y c - r) (Vec.x c + r) (Vec.y c + r)
-    firstReach = most f / 64
+    firstReach = max (1.1 * expected) (most f / 64)
     least s (k, other)
       | k /= own f,
         Just r <- radiusTo f p n (k, other),
@@ -276,12 +277,14 @@ pieces f = joined (concat (zipWith between found (drop 1 found)))
           [piece | piece@(u, v, _) <- [(share a, w, bound a), (w, share b, bound b)], v > u]
         | otherwise -> halved a m <> halved m n <> halved n b
         where
-          m = if w - near' > share a then sample f (w - near') else a
-          n = if w + near' < share b then sample f (w + near') else b
+          m = if w - near' > share a then sample f (radius a) (w - near') else a
+          n = if w + near' < share b then sample f (radius b) (w + near') else b
       Nothing -> halved a b
     halved a b
       | isOne a b = [(share a, share b, bound a)]
-      | otherwise = let m = sample f ((share a + share b) / 2) in between a m <> between m b
+      | otherwise = between a m <> between m b
+      where
+        m = sample f (max (radius a) (radius b)) ((share a + share b) / 2)
     isOne a b = bound a == bound b || share b - share a <= Tolerance.finestShare
     near' = Tolerance.crossingShare
     joined list = case list of
@@ -295,14 +298,15 @@ crossing :: Followed -> Sample -> Sample -> Maybe Double
 crossing f a b = go (20 :: Int) (0 :: Int) (share a) (test (share a)) (share b) (test (share b))
   where
     test = fromMaybe difference (jointTest f (bound a) (bound b))
-    -- Of radii that are equal but for 'Tolerance.smallestDisc', the bound that comes first is taken.
+    -- The bound that comes first is taken if both radii are equal but for 'Tolerance.smallestDisc'.
     difference u = carrierRadiusOf f u (bound a) - carrierRadiusOf f u (bound b) - preference
     preference = if isBefore (bound a) (bound b) then smallest else -smallest
     isBefore (Other i) (Other j) = i < j
     isBefore _ (Other _) = True
     isBefore _ _ = False
     Mm smallest = Tolerance.smallestDisc
-    -- The end that stays for a second time counts half. @side@ is the sign of the last step's value.
+    -- The end that stays for a second time counts half. @side@ is the sign of the last step's
+    -- value.
     go steps side u du v dv
       | du > 0 || dv < 0 || isInfinite du || isInfinite dv || du == dv = Nothing
       | steps == 0 || abs dw <= 0.1 * smallest && isNear = Just w
@@ -328,8 +332,11 @@ jointTest f x y = case (x, y) of
     count = Vector.length (before (around f))
     isSide k = k < count
     following k = after (around f) Vector.! k
-    isEnd k other = not (isConvex (around f) (following k)) && other `elem` [following k, following k + count]
-    isStart k other = not (isConvex (around f) k) && other `elem` [before (around f) Vector.! k, k + count]
+    preceding k = before (around f) Vector.! k
+    isSmoothAt k = not (isConvex (around f) k)
+    isEnd k other =
+      isSmoothAt (following k) && other `elem` [following k, following k + count]
+    isStart k other = isSmoothAt k && other `elem` [preceding k, k + count]
     past isLast k u = case sites (around f) Vector.! k of
       Side s | Just r <- carrierRadius p n (Side s) -> beyond isLast s (Vec.shift (Vec.scale r n) p)
       _ -> 1 / 0
@@ -362,8 +369,9 @@ radiusBy f other b = case b of
 samples :: Followed -> [Sample]
 samples f = map snd (dropEqual (sortOn fst (evenly <> map sampled others)))
   where
-    sampled u = (u, sample f u)
-    evenly = [sampled (fromIntegral k / fromIntegral count) | k <- [0 .. count]]
+    sampled u = (u, sample f widest u)
+    evenly = [(share s, s) | s <- scanl next (sample f 0 0) [1 .. count]]
+    next s k = sample f (radius s) (fromIntegral k / fromIntegral count)
     count = 4 :: Int
     others = filter isInside (mapMaybe near found)
     isInside u = u > Tolerance.finestShare && u < 1 - Tolerance.finestShare
@@ -425,7 +433,7 @@ branchOf tolerance f (a, b, bound') = case bound' of
     Mm smallest = Tolerance.smallestDisc
     discAt u =
       let (p, n) = contact (site f) u
-          r = min (most f) (radiusOf f u bound' `orAt` radius (sample f u))
+          r = min (most f) (radiusOf f u bound' `orAt` radius (sample f 0 u))
        in Disc (Vec.shift (Vec.scale r n) p) r
     orAt r other = if isInfinite r then other else r
     -- Stretches between two shares, halved until they are near enough to the axis.

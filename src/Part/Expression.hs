@@ -226,7 +226,7 @@ written inUnit dimension v = case v of
   ListValue vs ->
     Decimal.whole (Vector.length vs) <> (if Vector.length vs == 1 then " item" else " items")
   PlacementValue _ -> ""
-  ClearingValue _ -> ""
+  OperationValue _ -> ""
   TableValue t -> Decimal.whole (NumberTable.count (Curve.rows t)) <> " rows"
   CurveValue c -> "length " <> Decimal.inUnit inUnit (Exact.length (Curve.exact c))
   where

@@ -56,7 +56,7 @@ import Part.PlaneRegion qualified as PlaneRegion
 import Part.RestMachining qualified as RestMachining
 import Part.TextPlace qualified as TextPlace
 import Part.Transformation qualified as Transformation
-import Part.Value (ClearedPockets (..), Value (..))
+import Part.Value (MachinedBefore (..), NamedOperation (..), Value (..))
 
 -- | The state of evaluation between two statements. All lists are in reverse order.
 data State = State
@@ -228,7 +228,8 @@ step state (Located at s) = case s of
     keep (Machining.milling now Milled at e side settings) (eachPerformed Mill)
   Checked.Pocket e stepover own settings ->
     keep (Machining.pocketing now at e stepover settings) $ \found ->
-      maybe id (namedPockets at (fromMaybe [] found)) own (eachPerformed Pocket found)
+      let before = if null (concat found) then Nothing else Pockets <$> found
+       in nameOperation at own before (eachPerformed Pocket found)
   Checked.RestOf e stepover settings ->
     keep (RestMachining.restOf now at e stepover settings) (eachPerformed Pocket)
   Checked.Face e stepover settings ->
@@ -237,8 +238,9 @@ step state (Located at s) = case s of
       (eachPerformed Pocket)
   Checked.Engrave text settings ->
     keep (Engraving.engraving now at text settings) (eachPerformed Mill)
-  Checked.Vcarve e settings ->
-    keep (Carving.carving now at e settings) (performed Carve)
+  Checked.Vcarve e own settings ->
+    keep (Carving.carving now at e settings) $ \found ->
+      nameOperation at own (Carved <$> found) (performed Carve found)
   Checked.Turn e side settings ->
     keep (Machining.milling now Turned at e side settings) (eachPerformed Mill)
   Checked.Drill points depth settings ->
@@ -381,12 +383,13 @@ define state name d v =
           locals = Map.delete (value name) (locals env)
         }
 
--- | Binds the name of a statement in the region @at@ to the pockets that it clears. There are none
--- if a mistake is reported.
-namedPockets :: Region -> [Pocketing] -> Located Name -> State -> State
-namedPockets at found name state
-  | null found = state
-  | otherwise = define state name Dimension.none (ClearingValue (ClearedPockets at found False))
+-- | Binds the name of a statement in the region @at@, if it has one, to what it machines. This is
+-- 'Nothing' if a mistake is reported.
+nameOperation :: Region -> Maybe (Located Name) -> Maybe MachinedBefore -> State -> State
+nameOperation at own machined state = case (own, machined) of
+  (Just name, Just before) ->
+    define state name Dimension.none (OperationValue (NamedOperation at before False))
+  _ -> state
 
 -- | A value with its name on the contours that a function of the language has made. Such a contour
 -- has the name of the function, unless the program has given this name to something else.
@@ -479,16 +482,16 @@ transformed body placing state =
     outside = env {values = Map.map elsewhere (values env), locals = Map.map elsewhere (locals env)}
     env = environment (context state)
 
--- | A value inside a @with@: the pockets in it are cleared outside.
+-- | A value inside a @with@: the operations in it are performed outside.
 elsewhere :: Value -> Value
 elsewhere v = case v of
-  ClearingValue c -> ClearingValue c {isElsewhere = True}
-  ListValue vs | holdsPockets v -> ListValue (Vector.map elsewhere vs)
+  OperationValue o -> OperationValue o {isElsewhere = True}
+  ListValue vs | holdsOperations v -> ListValue (Vector.map elsewhere vs)
   _ -> v
   where
-    holdsPockets value' = case value' of
-      ClearingValue _ -> True
-      ListValue vs -> any holdsPockets (vs Vector.!? 0)
+    holdsOperations value' = case value' of
+      OperationValue _ -> True
+      ListValue vs -> any holdsOperations (vs Vector.!? 0)
       _ -> False
 
 -- Values whose type the checker knows

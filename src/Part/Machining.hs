@@ -8,6 +8,7 @@ module Part.Machining
     milling,
     millingOf,
     pocketing,
+    pocketIn,
     checkPassCount,
     stopsOf,
     spacePoint,

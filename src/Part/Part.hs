@@ -37,6 +37,7 @@ module Part.Part
     TapStroke (..),
     Circling (..),
     Carving (..),
+    carvingReach,
     ThreadHelix (..),
     runsOf,
     Command (..),
@@ -61,7 +62,7 @@ module Part.Part
 where
 
 import Base.Name (Name)
-import Base.Quantity (LengthUnit, Mm (..), Rad, Seconds)
+import Base.Quantity (LengthUnit, Mm (..), Rad (..), Seconds, plus, times)
 import Base.Region (Located, Region)
 import Checked.Syntax
   ( Corners (..),
@@ -543,6 +544,10 @@ data Carving = Carving
     carvingRest :: RestPolicy
   }
   deriving stock (Eq, Show)
+
+-- | The distance of the axis of a V-carving's tool, at the largest depth, from the contours.
+carvingReach :: Carving -> Mm
+carvingReach c = let Rad a = halfAngle c in plus (carvingTip c) (times (tan a) (carvingDepth c))
 
 -- | A command to the machine: an auxiliary function.
 data Command

@@ -22,6 +22,9 @@ import Base.Name (Name)
 import Base.Quantity (Mm (..), Rad (..))
 import Base.Region (Located (..), Region)
 import Data.Bifunctor qualified as Bifunctor
+import Data.Graph (flattenSCC, stronglyConnComp)
+import Data.IntMap.Strict qualified as IntMap
+import Data.List (sortOn)
 import Data.List.NonEmpty (NonEmpty (..))
 import Data.List.NonEmpty qualified as NonEmpty
 import Data.Maybe (fromMaybe, isJust, mapMaybe)
@@ -32,6 +35,8 @@ import Data.Vector qualified as Vector
 import Geometry.Carrier (Side (..))
 import Geometry.ClosedPolyarcs qualified as ClosedPolyarcs
 import Geometry.FlatPolyarc qualified as FlatPolyarc
+import Geometry.Index.BoundingBox qualified as BoundingBox
+import Geometry.Index.BoxTree qualified as BoxTree
 import Geometry.Polyarc (Ends (Closed, Open))
 import Geometry.Polyarc qualified as Polyarc
 import Geometry.Segment (Segment (..))
@@ -87,12 +92,45 @@ inside c
     whole = polyarcOf c
     element i = NonEmpty.toList (elements c) !! i
 
--- | The result of a boolean operation, with a name for its contours. Many regions are joined in
--- halves, so that segments inside the union are dropped early.
+-- | The result of a boolean operation, with a name for its contours. Parts whose bounding boxes do
+-- not meet have no influence on each other, so each cluster of parts is combined by itself.
 combined ::
   Located Name -> BooleanOperation -> [PlaneRegion] -> Either RegionFault PlaneRegion
-combined name operation regions = case (operation, regions) of
-  (_, [one]) -> Right one
+combined name operation regions = case regions of
+  [one] -> Right one
+  _ -> PlaneRegion . concat <$> traverse (fmap parts . ofCluster) (clusters numbered)
+  where
+    numbered = concat (zipWith (\k region -> map (k,) (parts region)) [0 ..] regions)
+    ofCluster ps = case (operation, IntMap.toAscList (IntMap.fromListWith (flip (<>)) ps)) of
+      (Union, [(_, alone)]) -> Right (PlaneRegion (map named alone))
+      (Difference, [(0, alone)]) -> Right (PlaneRegion (map named alone))
+      (Difference, (k, _) : _) | k > 0 -> Right (PlaneRegion [])
+      (Common, found) | length found < length regions -> Right (PlaneRegion [])
+      (_, found) -> combinedTogether name operation (map (PlaneRegion . snd) found)
+    named p = RegionPart (withName (outer p)) (map withName (holes p))
+    withName c = c {contourName = name, breaks = [], writtenElements = []}
+
+-- | Clusters of parts of operands whose bounding boxes meet, in the order of their first parts.
+-- Each part has the number of its operand, and is in a list by itself.
+clusters :: [(Int, RegionPart)] -> [[(Int, [RegionPart])]]
+clusters operands =
+  map (map partOf) (sortOn (map place . take 1) (map (sortOn place . flattenSCC) components))
+  where
+    placed = [(n, boxOf (outer p), (k, [p])) | (n, (k, p)) <- zip [0 :: Int ..] operands]
+    place (n, _, _) = n
+    box (_, b, _) = b
+    partOf (_, _, p) = p
+    tree = BoxTree.index box placed
+    components =
+      stronglyConnComp [(p, place p, map place (BoxTree.within (reach p) tree)) | p <- placed]
+    reach p = BoundingBox.inflate PartTolerance.joint (box p)
+    boxOf c = foldr1 BoundingBox.union (fmap (BoundingBox.ofSegment . segment) (elements c))
+
+-- | The result of a boolean operation on parts that meet. Many regions are joined in halves, so
+-- that segments inside the union are dropped early.
+combinedTogether ::
+  Located Name -> BooleanOperation -> [PlaneRegion] -> Either RegionFault PlaneRegion
+combinedTogether name operation regions = case (operation, regions) of
   (Difference, whole : more@(_ : _ : _)) -> do
     less <- combined name Union more
     combinedAtOnce name Difference [whole, less]

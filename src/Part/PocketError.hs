@@ -1,6 +1,7 @@
 -- | Faults of a pocket: of its contours, and of the stepover between its passes.
 module Part.PocketError
   ( PocketMisfit (..),
+    EarlierOperation (..),
     toReport,
   )
 where
@@ -33,7 +34,7 @@ data PocketMisfit
     StepTooWide Region Mm Mm
   | -- | a pocket whose rest is to be cleared, and which is cleared outside of the transformation:
     -- the region of its statement
-    RestElsewhere Region Region
+    RestElsewhere EarlierOperation Region Region
   | -- | such a pocket without a depth: the region of its statement
     RestWithoutDepth Region Region
   | -- | a cutter that is not smaller than that of the pocket: the region of the pocket's statement,
@@ -41,7 +42,14 @@ data PocketMisfit
     RestNotSmaller Region Region Mm Mm
   | -- | a depth below that of the pocket: the region of the pocket's statement, and the lowest
     -- heights of the rest operation and of the pocket
-    RestTooDeep Region Region Mm Mm
+    RestTooDeep EarlierOperation Region Region Mm Mm
+  | -- | a cutter that fits into no floor of a V-carving: the region of the V-carving, and the
+    -- diameter of the cutter
+    NoFloor Region Region Mm
+  deriving stock (Eq, Show)
+
+-- | The kind of an operation that leaves something to a later one.
+data EarlierOperation = EarlierPocket | EarlierCarving
   deriving stock (Eq, Show)
 
 -- | The report of a fault.
@@ -113,11 +121,31 @@ toReport unit misfit = case misfit of
             | let half = Decimal.inUnit unit (times 0.5 diameter)
           ]
       }
-  RestElsewhere region there ->
-    (at region "E0382" "this pocket is cleared outside of the block")
-      { others = [Label (firstWord there) "the pocket is cleared here"],
-        message = ["The transformation would move what is to be cleared away from the pocket."],
-        hints = ["Write the pocket into the same block, or this statement outside of it."]
+  RestElsewhere kind region there ->
+    ( at
+        region
+        "E0382"
+        (before kind "this pocket is cleared" "this region is carved" <> " outside of the block")
+    )
+      { others =
+          [ Label (firstWord there) $
+              before kind "the pocket is cleared here" "the region is carved here"
+          ],
+        message =
+          [ "The transformation would move what is to be cleared away from the " <> noun kind <> "."
+          ],
+        hints =
+          [ "Write the " <> noun kind <> " into the same block, or this statement outside of it."
+          ]
+      }
+  NoFloor region there diameter ->
+    (at region "E0378" "the cutter fits into no floor of this V-carving")
+      { others = [Label (firstWord there) "this V-carving"],
+        message =
+          [ "The cutter has a diameter of " <> Decimal.inUnit unit diameter
+              <> " and has to stay clear of the flanks."
+          ],
+        hints = ["Change to a smaller cutter, or leave the statement out if there is no floor."]
       }
   RestWithoutDepth region there ->
     (at region "E0383" "the pocket has no depth, so what it leaves cannot be cleared")
@@ -136,25 +164,34 @@ toReport unit misfit = case misfit of
           ],
         hints = ["Change to a smaller cutter before this statement."]
       }
-  RestTooDeep region there own rough ->
+  RestTooDeep kind region there own rough ->
     ( at
         region
         "E0381"
-        ("the pocket is only " <> deep rough <> " deep")
+        ("the " <> noun kind <> " is only " <> deep rough <> " deep")
     )
-      { others = [Label (firstWord there) "this pocket"],
+      { others = [Label (firstWord there) ("this " <> noun kind)],
         message = ["Down to " <> deep own <> " the cutter would be in the full material."],
         fixes =
           [ Fix.proposed
               ( Fix.exchange
-                  ("Write the depth of the pocket, " <> deep rough <> ".")
+                  ("Write the depth of the " <> noun kind <> ", " <> deep rough <> ".")
                   region
                   (deep rough)
               )
           ],
-        hints = ["Without a depth, the rest is cleared in the passes of the pocket."]
+        hints =
+          [ before
+              kind
+              "Without a depth, the rest is cleared in the passes of the pocket."
+              "Without a depth, the floor is cleared at the depth of the V-carving."
+          ]
       }
   where
+    noun kind = before kind "pocket" "V-carving"
+    before kind ofPocket ofCarving = case kind of
+      EarlierPocket -> ofPocket
+      EarlierCarving -> ofCarving :: Text
     deep z = Decimal.inUnit unit (times (-1) z)
     firstWord there = there {end = start there + Text.length "pocket"}
 

@@ -1,4 +1,5 @@
--- | Evaluates rest machining: the clearing of what a larger cutter has left in a pocket.
+-- | Evaluates rest machining: the clearing of what a larger cutter has left in a pocket, or of the
+-- floor that a V-carving has left.
 module Part.RestMachining
   ( restOf,
   )
@@ -19,61 +20,131 @@ import Part.Machining qualified as Machining
 import Part.Measure (lengthOf)
 import Part.Parameter qualified as Parameter
 import Part.Part
+import Part.PlaneRegion (PlaneRegion (PlaneRegion))
+import Part.PlaneRegion qualified as PlaneRegion
+import Part.PocketCheck qualified as PocketCheck
 import Part.PocketError
-  ( PocketMisfit (RestElsewhere, RestNotSmaller, RestTooDeep, RestWithoutDepth, StepTooWide),
+  ( EarlierOperation (..),
+    PocketMisfit
+      ( NoFloor,
+        RestElsewhere,
+        RestNotSmaller,
+        RestTooDeep,
+        RestWithoutDepth,
+        StepTooWide
+      ),
   )
-import Part.Value (ClearedPockets (..), Value (..))
+import Part.Value (MachinedBefore (..), NamedOperation (..), Value (..))
 
--- | Evaluates the clearing of what the statement @e@ has left in its pocket. @at@ is the region of
--- the statement and @step@ the expression of the stepover. Without a depth it has the passes of
--- that statement.
+-- | Evaluates the clearing of what the operation @e@ has left. @at@ is the region of the statement
+-- and @step@ the expression of the stepover. Without a depth it has the passes of the pocket, or
+-- the depth of the V-carving.
 restOf :: Context -> Region -> Expr -> Expr -> Checked.Settings -> Eval (Maybe [Pocketing])
 restOf context at e step settings = do
   Machining.checkCutter context at RestStatement
   v <- Expression.evaluate (environment context) e
+  let operation = case v of
+        OperationValue o -> o
+        _ -> bug "a value that is no operation where one was checked"
+  case machinedBefore operation of
+    Pockets pockets -> restOfPockets context at (e, step, settings) operation pockets
+    Carved c -> floorsOf context at (e, step, settings) operation c
+
+-- | The expressions of a statement: what it clears, its stepover, and its settings.
+type Arguments = (Expr, Expr, Checked.Settings)
+
+-- | Evaluates the clearing of what an operation has left in its pockets.
+restOfPockets ::
+  Context -> Region -> Arguments -> NamedOperation -> [Pocketing] -> Eval (Maybe [Pocketing])
+restOfPockets context at (e, step, settings) operation pockets = do
   stepover <- lengthOf (environment context) Parameter.Stepover step
-  let cleared = case v of
-        ClearingValue c -> c
-        _ -> bug "a value that is no pocket operation where one was checked"
-      diameter = times 2 . cutterRadius <$> cutter context
+  let diameter = times 2 . cutterRadius <$> cutter context
       tooWide = [StepTooWide (region step) stepover d | Just d <- [diameter], stepover > d]
-  found <- traverse (restIn context at e settings) (pockets cleared)
-  case misfits context (region e) cleared <> tooWide <> tooDeep settings cleared found of
+  found <- traverse (restIn context at e settings) pockets
+  let lowest =
+        [ (lowestOf (wall rough), lowestOf own)
+          | Just (rough, own) <- found,
+            not (null (levels (wall rough)))
+        ]
+      unfit = misfits context (region e) operation (map wall pockets)
+  case unfit <> tooWide <> tooDeep settings EarlierPocket operation lowest of
     [] -> do
       sequence_ [Machining.checkPassCount (region step) (count stepover p) | Just p <- found]
-      pure (map (afterwards cleared stepover) <$> sequence found)
-    faults -> Evaluation.mistakes [Error (InPocket m) [] [] | m <- faults]
+      pure (map (afterwards operation stepover) <$> sequence found)
+    faults -> refused faults
   where
     count stepover (rough, _) =
       over (plus (radius (wall rough)) (allowanceOf rough)) stepover
 
--- | The faults of clearing what a statement has left: it is outside of a transformation around this
--- one, it has no depth, or its cutter is not larger. @at@ is the region of its name.
-misfits :: Context -> Region -> ClearedPockets -> [PocketMisfit]
-misfits context at cleared =
-  [RestElsewhere at (clearedAt cleared) | isElsewhere cleared]
+refused :: [PocketMisfit] -> Eval a
+refused faults = Evaluation.mistakes [Error (InPocket m) [] [] | m <- faults]
+
+-- | Evaluates the clearing of the floors that a V-carving has left. The cutter stays as far from
+-- the contours as the axis of the cone did at its largest depth. Areas whose floor it does not fit
+-- are left out.
+floorsOf ::
+  Context -> Region -> Arguments -> NamedOperation -> Carving -> Eval (Maybe [Pocketing])
+floorsOf context at (e, step, settings) operation c
+  | isElsewhere operation = refused [RestElsewhere EarlierCarving (region e) there]
+  | otherwise = case (cutter context, filter fits areas) of
+    (Just t, []) -> refused [NoFloor (region e) there (times 2 (cutterRadius t))]
+    (_, found) -> do
+      pockets <- traverse pocketOf found
+      let lowest = [(bottom, lowestOf (wall p)) | Just p <- pockets]
+      case tooDeep settings EarlierCarving operation lowest of
+        [] -> pure (map deepened <$> sequence pockets)
+        faults -> refused faults
+  where
+    there = operationAt operation
+    areas = NonEmpty.toList (carvedAreas c)
+    bottom = times (-1) (carvingDepth c)
+    room = carvingReach c
+    fits (outline, holes') = case cutter context of
+      Nothing -> True
+      Just t ->
+        let inset = times (-1) (plus room (cutterRadius t))
+            left = PlaneRegion.offsetBy at (contourName outline) inset (outline : holes')
+         in left /= Right (PlaneRegion [])
+    pocketOf (outline, holes') =
+      Machining.pocketIn context at step settings (named outline) (map named holes')
+    named = PocketCheck.Named (region e)
+    deepened p =
+      p
+        { wall =
+            (wall p)
+              { levels = if null (levels (wall p)) then [bottom] else levels (wall p),
+                allowances = fmap (plus room) (allowances (wall p))
+              }
+        }
+
+-- | The faults of clearing what an operation has left in its pockets: it is outside of a
+-- transformation around this statement, it has no depth, or its cutter is not larger. @at@ is the
+-- region of its name.
+misfits :: Context -> Region -> NamedOperation -> [Milling] -> [PocketMisfit]
+misfits context at operation walls =
+  [RestElsewhere EarlierPocket at there | isElsewhere operation]
     <> take
       1
-      ( [RestWithoutDepth at (clearedAt cleared) | p <- walls, null (levels p)]
-          <> [ RestNotSmaller at (clearedAt cleared) (cutterRadius c) (radius p)
+      ( [RestWithoutDepth at there | p <- walls, null (levels p)]
+          <> [ RestNotSmaller at there (cutterRadius c) (radius p)
                | p <- walls,
                  Just c <- [cutter context],
                  cutterRadius c >= radius p
              ]
       )
   where
-    walls = map wall (pockets cleared)
+    there = operationAt operation
 
--- | The fault of a depth below that of the pocket.
-tooDeep :: Checked.Settings -> ClearedPockets -> [Maybe (Pocketing, Milling)] -> [PocketMisfit]
-tooDeep settings cleared found =
+-- | The fault of a depth below that of an earlier operation. The pairs are the lowest heights of
+-- both.
+tooDeep :: Checked.Settings -> EarlierOperation -> NamedOperation -> [(Mm, Mm)] -> [PocketMisfit]
+tooDeep settings kind operation heights =
   take
     1
-    [ RestTooDeep (region depth) (clearedAt cleared) (lowestOf own) (lowestOf (wall rough))
+    [ RestTooDeep kind (region depth) (operationAt operation) own before
       | Just (depth, _) <- [Checked.depth settings],
-        Just (rough, own) <- found,
-        not (null (levels (wall rough))),
-        lowestOf own < lowestOf (wall rough)
+        (before, own) <- heights,
+        own < before
     ]
 
 -- | The height of the lowest pass of a milling with a depth.
@@ -95,15 +166,15 @@ restIn context at e settings rough = do
   pure ((rough,) <$> found)
 
 -- | The clearing of what a pocket has left, with this milling of its wall.
-afterwards :: ClearedPockets -> Mm -> (Pocketing, Milling) -> Pocketing
-afterwards cleared stepover (rough, own) =
+afterwards :: NamedOperation -> Mm -> (Pocketing, Milling) -> Pocketing
+afterwards operation stepover (rough, own) =
   rough
     { wall = own {levels = if null (levels own) then levels (wall rough) else levels own},
       stepover,
       extent =
         RestOfPocket
           Roughing
-            { roughedAt = clearedAt cleared,
+            { roughedAt = operationAt operation,
               roughRadius = radius (wall rough),
               roughAllowance = allowanceOf rough,
               roughedDownTo = lowestOf (wall rough)

@@ -2,7 +2,8 @@
 -- parameter @region@ of a check is the region that a mistake points at.
 module Part.Value
   ( Value (..),
-    ClearedPockets (..),
+    NamedOperation (..),
+    MachinedBefore (..),
     Argument (..),
     spatial,
     lifted,
@@ -28,7 +29,7 @@ import Part.Error (ValueFact (..))
 import Part.Evaluation (Eval)
 import Part.Evaluation qualified as Evaluation
 import Part.Parameter (Range (FromTo), WholeNumber)
-import Part.Part (Contour, Pocketing)
+import Part.Part (Carving, Contour, Pocketing)
 import Part.PlaneRegion (PlaneRegion)
 
 -- | A value of the language. Numbers are in mm, radians, minutes and turns, or in products of
@@ -48,18 +49,26 @@ data Value
   | PlacementValue Transformation
   | TableValue PartTable
   | CurveValue PartCurve
-  | ClearingValue ClearedPockets
+  | OperationValue NamedOperation
   deriving stock (Eq, Show)
 
--- | The pockets that a statement with a name clears: one for each part of its region.
-data ClearedPockets = ClearedPockets
+-- | A statement with a name that leaves something to a later one.
+data NamedOperation = NamedOperation
   { -- | the region of the statement
-    clearedAt :: Region,
-    pockets :: [Pocketing],
+    operationAt :: Region,
+    machinedBefore :: MachinedBefore,
     -- | true inside a @with@ if the statement is outside of it, so that the transformation does not
     -- hold for it
     isElsewhere :: Bool
   }
+  deriving stock (Eq, Show)
+
+-- | The object of a statement with a name.
+data MachinedBefore
+  = -- | the pockets, one for each part of its region
+    Pockets [Pocketing]
+  | -- | a region, along its edges only where it is wide
+    Carved Carving
   deriving stock (Eq, Show)
 
 -- | An argument of a built-in function: a value, a value after a word such as @near@ or @left@, or

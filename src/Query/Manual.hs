@@ -220,9 +220,9 @@ clearing =
     ]
     <> under
       "language.md#rest-machining"
-      [ ("rest of", "Clears what a larger cutter has left in a pocket."),
-        ("of", "Comes before the name of the pocket whose rest is cleared."),
-        ("as", "Gives the clearing of a pocket a name.")
+      [ ("rest of", "Clears what a larger cutter or a V-carving has left."),
+        ("of", "Comes before the name of the operation whose rest is cleared."),
+        ("as", "Gives the clearing of a pocket or a V-carving a name.")
       ]
     <> under
       "language.md#facing"

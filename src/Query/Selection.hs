@@ -51,7 +51,7 @@ regionsAround at s
       Pocket _ _ _ ss -> [region x | x <- ss, contains (region x)]
       RestOf _ _ ss -> [region x | x <- ss, contains (region x)]
       Face _ _ ss -> [region x | x <- ss, contains (region x)]
-      Vcarve _ ss -> [region x | x <- ss, contains (region x)]
+      Vcarve _ _ ss -> [region x | x <- ss, contains (region x)]
       Engrave _ ss -> [region x | x <- ss, contains (region x)]
       Turn _ _ ss -> [region x | x <- ss, contains (region x)]
       Hole _ _ _ _ ss -> [region x | x <- ss, contains (region x)]

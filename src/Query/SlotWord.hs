@@ -114,7 +114,7 @@ clearingEntries keyword = case keyword of
     own (value Contour) (words' ["step"])
       <> [("step", (value Type.len, words' ["as"])), ("as", ([], []))]
   "face" -> own (value Contour) (words' ["step"]) <> [("step", (value Type.len, []))]
-  "vcarve" -> own (value Contour) []
+  "vcarve" -> own (value Contour) (words' ["as"]) <> [("as", ([], []))]
   "rest" ->
     own (words' ["of"]) []
       <> [("of", (value Clearing, words' ["step"])), ("step", (value Type.len, []))]

@@ -110,7 +110,7 @@ symbol source (Located whole s) = case s of
   Pocket contour stepover own _ -> machining (region stepover) (maybe (region contour) region own)
   RestOf clearing stepover _ -> machining (region stepover) (region clearing)
   Face contour stepover _ -> machining (region stepover) (region contour)
-  Vcarve e _ -> machining (region e) (region e)
+  Vcarve e own _ -> machining (region e) (maybe (region e) region own)
   Engrave text _ -> machining (region (textHeight text)) (region (lettered text))
   Turn contour side _ -> machining (region side) (region contour)
   Drill holes depth _ -> machining (region depth) (region holes)

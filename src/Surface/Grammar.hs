@@ -101,7 +101,7 @@ statementForms =
     ("rest", RestOf <$> (keyword "of" *> expr) <*> stepover <*> settings "rest"),
     ("face", Face <$> expr <*> stepover <*> settings "face"),
     ("engrave", engraving expr settings),
-    ("vcarve", Vcarve <$> expr <*> settings "vcarve"),
+    ("vcarve", Vcarve <$> expr <*> ownName <*> settings "vcarve"),
     ("turn", machining "turn" Turn),
     ( "drill",
       keyword "at"

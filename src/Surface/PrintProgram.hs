@@ -147,7 +147,7 @@ statement comments indent (Located _ s) = case s of
   Face e step settings ->
     clearing (spaced [Text "face", value e, Text "step", value step]) settings
   Engrave text settings -> clearing (lettering comments "engrave" text) settings
-  Vcarve e settings -> clearing (spaced [Text "vcarve", value e]) settings
+  Vcarve e own settings -> clearing (spaced ([Text "vcarve", value e] <> namedAs own)) settings
   Turn e side settings -> machining "turn" e side settings
   Drill at depth settings ->
     let before = spaced [Text "drill at", value at, Text "depth", value depth]

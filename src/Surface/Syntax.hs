@@ -153,8 +153,8 @@ data Statement_
     Face Expr Expr [Setting]
   | -- | @engrave "12" at p height 8 { … }@
     Engrave Lettering [Setting]
-  | -- | @vcarve letters { … }@: the region to carve
-    Vcarve Expr [Setting]
+  | -- | @vcarve letters as sign { … }@: the region to carve, the name of the operation
+    Vcarve Expr (Maybe (Located Name)) [Setting]
   | -- | @turn profile outside { … }@
     Turn Expr (Located Side) [Setting]
   | -- | @drill at holes depth 12 mm { … }@

@@ -61,6 +61,7 @@ definedName s = case s of
   Curve n _ -> Just n
   Piece n _ _ _ _ -> Just n
   Pocket _ _ n _ -> n
+  Vcarve _ n _ -> n
   Broken _ n -> n
   _ -> Nothing
 
@@ -123,7 +124,7 @@ ofStatement (Located _ s) = case s of
   RestOf e stepover settings -> e : stepover : concatMap ofSetting settings
   Face e stepover settings -> e : stepover : concatMap ofSetting settings
   Engrave text settings -> ofLettering text <> concatMap ofSetting settings
-  Vcarve e settings -> e : concatMap ofSetting settings
+  Vcarve e _ settings -> e : concatMap ofSetting settings
   Turn e _ settings -> e : concatMap ofSetting settings
   Drill e deep settings -> e : deep : concatMap ofSetting settings
   Hole _ e sizes _ settings -> e : map snd sizes <> concatMap ofSetting settings

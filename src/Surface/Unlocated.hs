@@ -71,7 +71,7 @@ statement s = case s of
     Pocket (expr e) (expr step) (fmap here own) (map (unlocated setting) settings)
   RestOf e step settings -> RestOf (expr e) (expr step) (map (unlocated setting) settings)
   Face e step settings -> Face (expr e) (expr step) (map (unlocated setting) settings)
-  Vcarve e settings -> Vcarve (expr e) (map (unlocated setting) settings)
+  Vcarve e own settings -> Vcarve (expr e) (fmap here own) (map (unlocated setting) settings)
   Engrave text settings -> Engrave (lettering text) (map (unlocated setting) settings)
   Turn e side settings -> Turn (expr e) (here side) (map (unlocated setting) settings)
   Drill at depth settings -> Drill (expr at) (expr depth) (map (unlocated setting) settings)

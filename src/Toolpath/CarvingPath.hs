@@ -51,15 +51,11 @@ moves at (Located region c) = case concat (snd (mapAccumL alongChain at chains))
 -- | The medial axis of an area, for discs up to the radius of the cone at the largest depth.
 axisOf :: Carving -> (Part.Contour, [Part.Contour]) -> [Branch]
 axisOf c (outline, holes) =
-  MedialAxis.branches (Mm (Tolerance.axisShare * limit)) (Mm widest) loops
+  MedialAxis.branches (Mm (Tolerance.axisShare * limit)) (Part.carvingReach c) loops
   where
     loops = fmap (simplified allowed . Part.polyarcOf) (outline :| holes)
     allowed = times Tolerance.contourShare (Mm limit)
     Mm limit = uncurry min (Part.deviationLimits (Part.carvingTolerance c))
-    Mm tip = Part.carvingTip c
-    Mm depth = Part.carvingDepth c
-    Rad half = Part.halfAngle c
-    widest = tip + depth * tan half
 
 -- | A contour of fewer lines and arcs within a tolerance, if that halves their count. This is so
 -- for contours of curves, which have very many arcs. Others are kept.

@@ -5,6 +5,7 @@ module Toolpath.CarvingReport
   ( nowhere,
     refused,
     allowed,
+    floorStays,
   )
 where
 
@@ -15,6 +16,7 @@ import Data.Text (Text)
 import Geometry.Vec qualified as Vec
 import Report.Report (Report (..), ReportPlace (InSource), at, report)
 import Report.Report qualified as Report
+import Toolpath.CarvingFloor (Floor (..))
 import Toolpath.Toolpath (CarvingRest (..))
 
 -- | The report that a tip of some radius fits nowhere into a region.
@@ -41,6 +43,22 @@ allowed unit region rest =
   (report Report.Warning "W0405" (InSource region) ("the tip leaves material at " <> places rest))
     { message = [thickestText unit rest],
       hints = ["Take a tool with a smaller tip, or leave rest allowed out to have this refused."]
+    }
+
+-- | The warning that a floor stays.
+floorStays :: LengthUnit -> Floor -> Report
+floorStays unit (Floor region p) =
+  (report Report.Warning "W0406" (InSource region) "the floor of this V-carving is not cleared")
+    { message =
+        [ "At " <> Vec.toText unit 3 p
+            <> " the region is wider than the tool carves at this depth. The material between the \
+               \grooves at its edges stays."
+        ],
+      hints =
+        [ "Give the V-carving a name, vcarve … as sign { … }, change to a mill, and write rest of \
+          \sign step 1 { rest allowed }.",
+          "Or carve deeper, up to the height of the flank."
+        ]
     }
 
 places :: CarvingRest -> Text

@@ -29,6 +29,8 @@ import Geometry.WindingNumber qualified as WindingNumber
 import Part.CutFeed (SpindleRate (..))
 import Part.Part (Milling, Pace (..), Side (..), Work (..))
 import Part.Part qualified as Part
+import Toolpath.CarvingFloor (Floor (carvedBy))
+import Toolpath.CarvingFloor qualified as CarvingFloor
 import Toolpath.Error (Warning (..))
 import Toolpath.LinkingMove qualified as LinkingMove
 import Toolpath.Toolpath (Block (..), Toolpath)
@@ -36,11 +38,19 @@ import Toolpath.Toolpath qualified as Toolpath
 
 -- | All warnings about a toolpath: first rapid moves through the part, then rapid moves into
 -- material that is not cleared or drilled yet, then tool changes after which the spindle is not
--- started again, then V-carvings whose tip is too wide.
+-- started again, then V-carvings whose tip is too wide, and those whose floor stays.
 warnings :: Toolpath -> [Warning]
 warnings path =
-  throughPart path <> intoContent path <> intoHoles path <> stoppedSpindles path <> wideTips
+  concat
+    [ throughPart path,
+      intoContent path,
+      intoHoles path,
+      stoppedSpindles path,
+      wideTips,
+      map floorStays (CarvingFloor.uncleared path)
+    ]
   where
+    floorStays f = FloorStays f {carvedBy = LinkingMove.keyword 6 (carvedBy f)}
     wideTips =
       [ TipTooWide (LinkingMove.keyword 6 region) rest
         | Carved (Located region _) _ (Just rest) <- Toolpath.blocks path

@@ -32,6 +32,7 @@ import Part.Part (Element (..), MillingPlaces, SpacePoint (..), Work (..))
 import Report.Fix qualified as Fix
 import Report.Report (Label (..), Report (..), ReportPlace (..), report)
 import Report.Report qualified as Report
+import Toolpath.CarvingFloor (Floor)
 import Toolpath.CarvingReport qualified as CarvingReport
 import Toolpath.Toolpath (CarvingRest)
 
@@ -61,6 +62,8 @@ data Warning
     NothingLeft Region Region
   | -- | a V-carving that leaves material because its tip is too wide: the statement, what it leaves
     TipTooWide Region CarvingRest
+  | -- | a V-carving whose floor stays
+    FloorStays Floor
   deriving stock (Eq, Show)
 
 -- | Rest material at a position that the cutter does not reach. The last field of 'InConcaveArc'
@@ -101,6 +104,7 @@ warningReport unit warning = case warning of
               ]
       }
   TipTooWide region rest -> CarvingReport.allowed unit region rest
+  FloorStays left -> CarvingReport.floorStays unit left
   RapidThroughPart region move (Located named contour) ->
     (report Report.Warning "W0402" (InSource region) "this rapid move goes through the part")
       { others = [Label named "inside this contour"],

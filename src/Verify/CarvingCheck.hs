@@ -44,10 +44,8 @@ import Verify.Proof (Finding (CarvesBeyond, EdgeNotCarved))
 data Carved = Carved
   { statement :: Region,
     carving :: Carving,
-    -- | the segments of each area, with the area on their left
-    areas :: [NonEmpty Segment],
-    -- | the areas by their bounding boxes
-    areaTree :: BoxTree (BoundingBox, NonEmpty Segment),
+    -- | the areas by their bounding boxes, each with its segments, which have it on their left
+    areas :: BoxTree (BoundingBox, BoxTree Segment),
     -- | all segments
     edges :: BoxTree Segment,
     -- | the deviation in mm that is allowed at the top of the part
@@ -96,13 +94,13 @@ carvedOf machine statement carving =
   Carved
     { statement,
       carving,
-      areas,
-      areaTree = BoxTree.index fst [(boxAround ss, ss) | ss <- areas],
-      edges = BoxTree.index BoundingBox.ofSegment (concatMap NonEmpty.toList areas),
+      areas = BoxTree.index fst [(boxAround ss, treeOf ss) | ss <- loops],
+      edges = treeOf (sconcat (fmap segmentsOf (Part.carvedAreas carving))),
       allowed = most + pulse + pulseZ * slope carving
     }
   where
-    areas = map segmentsOf (NonEmpty.toList (Part.carvedAreas carving))
+    loops = map segmentsOf (NonEmpty.toList (Part.carvedAreas carving))
+    treeOf = BoxTree.index BoundingBox.ofSegment . NonEmpty.toList
     Mm most = uncurry max (Part.deviationLimits (Part.carvingTolerance carving))
     Mm pulse = Machine.planeResolution machine
     Mm pulseZ = Machine.resolutionOf machine Machine.Z
@@ -153,8 +151,8 @@ beyond carved before m
       | otherwise = filter isLarge [stop]
     isOutside (q, _) =
       all
-        (\(_, ss) -> WindingNumber.about q ss /= 1)
-        (BoxTree.within (BoundingBox.ofPoints q []) (areaTree carved))
+        (\(_, area) -> WindingNumber.about q (BoxTree.toList area) /= 1)
+        (BoxTree.within (BoundingBox.ofPoints q []) (areas carved))
     near path =
       BoxTree.within (BoundingBox.inflate widest (BoundingBox.ofSegment path)) (edges carved)
     widest = Mm (max 0 (max r0 r1))
@@ -166,7 +164,8 @@ beyond carved before m
 
 -- | The centre and the radius of the disc at the beginning and at the end of a motion.
 endDiscs :: Carving -> CutterMotion -> ((Point, Double), (Point, Double))
-endDiscs c m = ((Segment.start (segment m), radiusAt c from), (Segment.end (segment m), radiusAt c to))
+endDiscs c m =
+  ((Segment.start (segment m), radiusAt c from), (Segment.end (segment m), radiusAt c to))
   where
     (from, to) = Motion.heights m
 
@@ -175,14 +174,14 @@ endDiscs c m = ((Segment.start (segment m), radiusAt c from), (Segment.end (segm
 overlap :: (Segment, Double, Double) -> Segment -> (Double, Point)
 overlap (path, r0, r1) edge = case path of
   Straight a b ->
-    maximum' [over t a b | t <- 0 : 1 : map crossing crossings <> concatMap (stationary a b) centres]
+    maximum' (map (over a b) (0 : 1 : map crossing crossings <> concatMap (stationary a b) centres))
   Arc {} ->
     let closest = Distance.segments path edge
         Mm d = Distance.distance closest
      in (max r0 r1 - d, Distance.nearestPoint closest)
   where
     maximum' = foldr1 (\x y -> if fst x >= fst y then x else y)
-    over t a b =
+    over a b t =
       let q = Vec.interpolate t a b
           Mm d = Distance.toPoint q edge
        in (r0 + t * (r1 - r0) - d, q)
@@ -220,11 +219,11 @@ sampleStep = Mm 0.5
 uncarved :: Carved -> [CutterMotion] -> [Point]
 uncarved carved ms =
   [ p
-    | ss <- areas carved,
-      s <- NonEmpty.toList ss,
+    | (_, area) <- BoxTree.toList (areas carved),
+      s <- BoxTree.toList area,
       u <- sampled s,
       let p = Segment.at u s
-          (centre, r) = largest carved p (Vec.left (Segment.directionAt u s)),
+          (centre, r) = largest carved area p (Vec.left (Segment.directionAt u s)),
       r >= tip,
       not (any (isCut centre r) (near centre))
   ]
@@ -251,12 +250,10 @@ uncarved carved ms =
 -- large is replaced by the one that touches the edge at its nearest point, until none is nearer
 -- (Ma, Bae and Choi, "3D medial axis point approximation using nearest neighbors and the normal
 -- field").
-largest :: Carved -> Point -> Vec -> (Point, Double)
-largest carved p n = go (100 :: Int) widest
+largest :: Carved -> BoxTree Segment -> Point -> Vec -> (Point, Double)
+largest carved area p n = go (100 :: Int) widest
   where
-    Mm tip = Part.carvingTip (carving carved)
-    Mm deep = Part.carvingDepth (carving carved)
-    widest = tip + deep * slope (carving carved)
+    Mm widest = Part.carvingReach (carving carved)
     go steps r
       | steps == 0 || r <= 0 = (c, max 0 r)
       | otherwise = case nearestWithin c (r - within) of
@@ -268,6 +265,6 @@ largest carved p n = go (100 :: Int) widest
       where
         c = Vec.shift (Vec.scale r n) p
     within = 0.01 * allowed carved
-    nearestWithin c r = case BoxTree.closest (Distance.toPoint c) c (edges carved) of
+    nearestWithin c r = case BoxTree.closest (Distance.toPoint c) c area of
       Just (Mm d, e) | d < r -> Just (snd (Distance.nearest c e))
       _ -> Nothing

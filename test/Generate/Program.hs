@@ -247,7 +247,7 @@ statement n = at (frequency ([(1, s) | s <- simple] <> [(3, s) | n > 0, s <- dee
         RestOf <$> expr n <*> expr n <*> some' 4 (setting n),
         Face <$> expr n <*> expr n <*> some' 4 (setting n),
         Engrave <$> lettering n <*> some' 4 (setting n),
-        Vcarve <$> expr n <*> some' 4 (setting n),
+        Vcarve <$> expr n <*> maybe' (at name) <*> some' 4 (setting n),
         Turn <$> expr n <*> at every <*> some' 4 (setting n),
         Repeat <$> at name <*> expr n <*> inside,
         When <$> expr n <*> inside <*> inside,

@@ -142,8 +142,8 @@ carved = do
     Nothing -> carved
     Just (path, program) -> pure (text, path, program)
 
--- | A program that carves two slanted grooves side by side, its toolpath and its planned frames, and
--- the distance in pulses from one groove to the other along x.
+-- | A program that carves two slanted grooves side by side, its toolpath and its planned frames,
+-- and the distance in pulses from one groove to the other along x.
 twoGrooves :: Gen (Text, (Toolpath, FrameProgram), Int)
 twoGrooves = do
   slant <- choose (-40, 40)
