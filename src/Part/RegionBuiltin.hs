@@ -6,6 +6,7 @@
 module Part.RegionBuiltin
   ( apply,
     regionOf,
+    settled,
     contourOfCircle,
   )
 where

@@ -10,6 +10,7 @@ import Base.Quantity (Mm (..), over, plus, times)
 import Base.Region (Located (..), Region)
 import Checked.Syntax (Expr)
 import Checked.Syntax qualified as Checked
+import Control.Monad (filterM)
 import Data.List.NonEmpty qualified as NonEmpty
 import Part.Error (CutterStatement (RestStatement), Error (..), ValueFact (..))
 import Part.Evaluation (Eval)
@@ -34,6 +35,7 @@ import Part.PocketError
         StepTooWide
       ),
   )
+import Part.RegionBuiltin qualified as RegionBuiltin
 import Part.Value (MachinedBefore (..), NamedOperation (..), Value (..))
 
 -- | Evaluates the clearing of what the operation @e@ has left. @at@ is the region of the statement
@@ -79,43 +81,42 @@ restOfPockets context at (e, step, settings) operation pockets = do
 refused :: [PocketMisfit] -> Eval a
 refused faults = Evaluation.mistakes [Error (InPocket m) [] [] | m <- faults]
 
--- | Evaluates the clearing of the floors that a V-carving has left. The cutter stays as far from
--- the contours as the axis of the cone did at its largest depth. Areas whose floor it does not fit
--- are left out.
+-- | Evaluates the clearing of the floors that a V-carving has left. They are the points that are at
+-- least as far from the contours as the axis of the cone at its largest depth. Floors into which
+-- the cutter does not fit are left out.
 floorsOf ::
   Context -> Region -> Arguments -> NamedOperation -> Carving -> Eval (Maybe [Pocketing])
 floorsOf context at (e, step, settings) operation c
   | isElsewhere operation = refused [RestElsewhere EarlierCarving (region e) there]
-  | otherwise = case (cutter context, filter fits areas) of
-    (Just t, []) -> refused [NoFloor (region e) there (times 2 (cutterRadius t))]
-    (_, found) -> do
-      pockets <- traverse pocketOf found
-      let lowest = [(bottom, lowestOf (wall p)) | Just p <- pockets]
-      case tooDeep settings EarlierCarving operation lowest of
-        [] -> pure (map deepened <$> sequence pockets)
-        faults -> refused faults
+  | otherwise = do
+    floors <- concat <$> traverse (inset (carvingReach c)) (NonEmpty.toList (carvedAreas c))
+    wide <- filterM fits floors
+    case (cutter context, wide) of
+      (Just t, []) -> refused [NoFloor (region e) there (times 2 (cutterRadius t))]
+      _ -> do
+        pockets <- traverse pocketOf wide
+        let lowest = [(bottom, lowestOf (wall p)) | Just p <- pockets]
+        case tooDeep settings EarlierCarving operation lowest of
+          [] -> pure (map deepened <$> sequence pockets)
+          faults -> refused faults
   where
     there = operationAt operation
-    areas = NonEmpty.toList (carvedAreas c)
     bottom = times (-1) (carvingDepth c)
-    room = carvingReach c
-    fits (outline, holes') = case cutter context of
-      Nothing -> True
-      Just t ->
-        let inset = times (-1) (plus room (cutterRadius t))
-            left = PlaneRegion.offsetBy at (contourName outline) inset (outline : holes')
-         in left /= Right (PlaneRegion [])
+    inset d (outline, holes') = do
+      let name = contourName outline
+      PlaneRegion found <-
+        RegionBuiltin.settled (region e) $
+          PlaneRegion.offsetBy (region e) name (times (-1) d) (outline : holes')
+      pure [(PlaneRegion.outer p, PlaneRegion.holes p) | p <- found]
+    fits part' = case cutter context of
+      Nothing -> pure True
+      Just t -> not . null <$> inset (cutterRadius t) part'
     pocketOf (outline, holes') =
       Machining.pocketIn context at step settings (named outline) (map named holes')
     named = PocketCheck.Named (region e)
-    deepened p =
-      p
-        { wall =
-            (wall p)
-              { levels = if null (levels (wall p)) then [bottom] else levels (wall p),
-                allowances = fmap (plus room) (allowances (wall p))
-              }
-        }
+    deepened p
+      | null (levels (wall p)) = p {wall = (wall p) {levels = [bottom]}}
+      | otherwise = p
 
 -- | The faults of clearing what an operation has left in its pockets: it is outside of a
 -- transformation around this statement, it has no depth, or its cutter is not larger. @at@ is the

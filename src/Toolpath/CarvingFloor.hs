@@ -34,24 +34,25 @@ data Floor = Floor {carvedBy :: Region, floorAt :: Point}
 -- | An area of a V-carving.
 data Area = Area {box :: BoundingBox, outline :: Polyarc, edges :: BoxTree Segment}
 
--- | For each V-carving, the first floor that no pocket of the toolpath clears: a pocket with the
--- outline of the area, down to the depth of the V-carving, and no further from the outline than
--- the tool has carved. Floors narrower than the tolerance do not count.
+-- | For each V-carving, the first of its floors that no pocket of the toolpath clears down to its
+-- depth. Floors narrower than the tolerance do not count.
 uncleared :: Toolpath -> [Floor]
 uncleared path =
   concat
-    [ take 1 (map (Floor region) (filter (isLeft c) (floors c (NonEmpty.toList ms))))
+    [ take 1 (map (Floor region) (filter (not . isCleared c) (floors c (NonEmpty.toList ms))))
       | Carved (Located region c) ms _ <- Toolpath.blocks path
     ]
   where
-    isLeft c p = not (any (\a -> isClearedIn c a && isIn p a) (map outline (areasOf c)))
-    isIn p a = WindingNumber.encloses a p
-    isClearedIn c a =
+    isCleared c p =
       or
-        [ Part.polyarcOf (Part.contour (Part.wall pocket)) == a
+        [ WindingNumber.encloses outer p
+            && not (any (`WindingNumber.encloses` p) islands)
+            && all (\s -> Distance.toPoint p s >= minus (Toolpath.left pass) (slack c)) walls
           | Clearing {pocket = Located _ pocket, pass} <- Toolpath.blocks path,
             Toolpath.atHeight pass <= plus (times (-1) (Part.carvingDepth c)) Tolerance.coincident,
-            minus (Toolpath.left pass) (Part.carvingReach c) <= slack c
+            let outer = Part.polyarcOf (Part.contour (Part.wall pocket)),
+            let islands = map Part.polyarcOf (Part.islands pocket),
+            let walls = concatMap (NonEmpty.toList . Polyarc.segments) (outer : islands)
         ]
 
 -- | The deviation that a V-carving may have.

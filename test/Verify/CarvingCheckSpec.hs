@@ -6,25 +6,31 @@ module Verify.CarvingCheckSpec
 where
 
 import Base.PulseVector (Pulses3 (..))
-import Base.Quantity (LengthUnit (Millimetres), Pulses (..))
+import Base.Quantity (LengthUnit (Millimetres), Mm (..), Pulses (..), minus, plus)
+import Base.Region (Located (..))
 import Base.Result qualified as Result
 import CaseCount (askedCount)
 import Compile (Analysis (Analysis))
 import Compile qualified
+import Data.List.NonEmpty qualified as NonEmpty
 import Data.Maybe (fromMaybe)
 import Data.Text (Text)
 import Data.Text qualified as Text
 import Frame.Frame (Frame (..), FrameMotion (Rapid), FrameProgram, PlannedFrame (..), Role (..))
 import Frame.Frame qualified as Frame
 import Frame.FromToolpath qualified as FromToolpath
+import Geometry.Distance qualified as Distance
+import Geometry.Polyarc qualified as Polyarc
 import Machines qualified
 import Numeric (showFFloat)
+import Part.Part qualified as Part
 import Project.LoadedProgram qualified as LoadedProgram
 import Project.Target qualified as Target
 import Report.Report qualified as Report
 import Test.Hspec
 import Test.QuickCheck
-import Toolpath.Toolpath (Toolpath)
+import Toolpath.Toolpath (Block (Carved, Clearing, cleared, pocket), Toolpath)
+import Toolpath.Toolpath qualified as Toolpath
 import Verify.FromTape qualified as Verify
 import Verify.Proof qualified as Proof
 
@@ -62,6 +68,25 @@ spec = do
             altered = [step half, aside pitch, aside (-pitch), step (increment long - half)]
             found = codesOf path program (front <> altered <> drop 1 rest)
          in counterexample (Text.unpack text <> show (n, found)) ("E0747" `elem` found)
+  it "a mill clears the floors and keeps off the flanks (catches a floor as wide as its region)" $
+    withMaxSuccess count $
+      forAllBlind floored $ \(text, path, program) ->
+        counterexample (Text.unpack text) $
+          conjoin
+            [ codesOf path program (map Frame.frame (Frame.plannedFrames program)) === [],
+              conjoin
+                [ counterexample (show m) $
+                    and
+                      [ Distance.distance (Distance.segments (Toolpath.segment m) s) >= limit
+                        | s <- edges
+                      ]
+                  | Clearing {pocket = Located _ p, cleared} <- Toolpath.blocks path,
+                    m <- NonEmpty.toList cleared,
+                    snd (Toolpath.heights m) < Mm 0,
+                    (reach, edges) <- [grooveOf path],
+                    let limit = minus (plus reach (Part.radius (Part.wall p))) (Mm 1e-6)
+                ]
+            ]
   where
     deviation = 300
     refused text path program code changes =
@@ -77,6 +102,13 @@ spec = do
     vertical f = case increment (Frame.frame f) of
       Pulses3 0 0 z -> z
       _ -> 0
+    -- The reach of the first carving of a path, and its contours.
+    grooveOf path =
+      case [c | Carved (Located _ c) _ _ <- Toolpath.blocks path] of
+        c : _ -> (Part.carvingReach c, concatMap edgesOf (NonEmpty.toList (Part.carvedAreas c)))
+        [] -> (Mm 0, [])
+    edgesOf (o, hs) =
+      concatMap (NonEmpty.toList . Polyarc.segments . Part.polyarcOf) (o : hs)
     -- Frames of the carving, by their numbers from 0.
     places has program =
       [n | (n, f) <- zip [0 :: Int ..] (Frame.plannedFrames program), isCarving (role f), has f]
@@ -111,7 +143,20 @@ codesOf path program frames =
 
 -- | A program that carves a random area, its toolpath and its planned frames.
 carved :: Gen (Text, Toolpath, FrameProgram)
-carved = do
+carved = carvedAnd ""
+
+-- | Such a program that clears the floors with a mill.
+floored :: Gen (Text, Toolpath, FrameProgram)
+floored = do
+  diameter <- choose (0.5, 4)
+  carvedAnd $
+    "change 2 mill(diameter " <> number diameter <> ")\nrest of groove step "
+      <> number (diameter * 0.4)
+      <> " { rest allowed }\n"
+
+-- | A program that carves a random area, and then has the given statements.
+carvedAnd :: Text -> Gen (Text, Toolpath, FrameProgram)
+carvedAnd more = do
   count <- choose (3, 9)
   radii <- vectorOf count (choose (14, 40))
   hole <- elements ["", "circle((0, 0), 3)", "circle((1, 1), 2), slot((-4, -2), (4, -3), 1)"]
@@ -134,12 +179,13 @@ carved = do
             "let area = offset_of(region(star), " <> number rounding <> ")",
             if Text.null hole then "" else "let holes = region([" <> hole <> "])",
             "vcarve " <> (if Text.null hole then "area" else "difference(area, holes)")
-              <> " { depth "
+              <> " as groove { depth "
               <> number deep
-              <> " }"
+              <> " }",
+            more
           ]
   case taped text of
-    Nothing -> carved
+    Nothing -> carvedAnd more
     Just (path, program) -> pure (text, path, program)
 
 -- | A program that carves two slanted grooves side by side, its toolpath and its planned frames,
