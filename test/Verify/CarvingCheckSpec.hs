@@ -6,7 +6,7 @@ module Verify.CarvingCheckSpec
 where
 
 import Base.PulseVector (Pulses3 (..))
-import Base.Quantity (LengthUnit (Millimetres), Mm (..), Pulses (..), minus, plus)
+import Base.Quantity (LengthUnit (Millimetres), Mm (..), Pulses (..), Rad (..), minus, plus)
 import Base.Region (Located (..))
 import Base.Result qualified as Result
 import CaseCount (askedCount)
@@ -52,7 +52,7 @@ spec = do
     "a chain that is carved less deep leaves an edge (catches edges that a smaller disc may carve)"
     $ withMaxSuccess count $
       forAllBlind carved $ \(text, path, program) ->
-        forAll (elements (longChains program)) $ \(n, up) ->
+        forAll (elements (longChains path program)) $ \(n, up) ->
           refused text path program "E0748" [(n, deviation), (up, -deviation)]
   it
     "a move from groove to groove goes beyond the edges (catches edges that are crossed unseen)"
@@ -115,12 +115,27 @@ spec = do
     isCarving r = case r of
       Carving _ -> True
       _ -> False
-    -- Chains of at least 5 mm, each by the frames that go down before it and up after it.
-    longChains program =
+    -- Chains of at least 5 mm, each by the frames that go down before it and up after it. Those
+    -- along which the disc only grows as fast as its centre moves carve nothing but one corner,
+    -- and the sides of a nearly straight corner are also carved by others.
+    longChains path program =
       [ (n, up)
         | (n, up) <- zip (places isDown program) (places isUp program),
-          sum (map lengthOf (take (up - n) (drop n (Frame.plannedFrames program)))) > 5000
+          let chain = take (up - n) (drop n (Frame.plannedFrames program)),
+          sum (map lengthOf chain) > 5000,
+          sum (map (beyondGrowth path) (drop 1 chain)) > 100
       ]
+    beyondGrowth path f = sqrt (fromIntegral (x * x + y * y)) - grown
+      where
+        Pulses3 (Pulses x) (Pulses y) (Pulses z) = increment (Frame.frame f)
+        grown = abs (fromIntegral z) * growthOf path
+    growthOf path =
+      maximum
+        [ tan a
+          | Carved (Located _ c) _ _ <- Toolpath.blocks path,
+            Rad a <- [Part.halfAngle c]
+        ] ::
+        Double
     halved (Pulses3 (Pulses x) (Pulses y) z) =
       Pulses3 (Pulses (x `div` 2)) (Pulses (y `div` 2)) z
     longest list program =
