@@ -12,9 +12,6 @@ import Data.List.NonEmpty (NonEmpty (..))
 import Data.List.NonEmpty qualified as NonEmpty
 import Data.Maybe (fromMaybe, mapMaybe)
 import Geometry.ArcFitting.PolyarcFit qualified as PolyarcFit
-import Geometry.MeasuredPolyarc qualified as MeasuredPolyarc
-import Geometry.Polyarc (Polyarc)
-import Geometry.Polyarc qualified as Polyarc
 import Geometry.Segment (Segment (Straight))
 import Geometry.Vec (Point)
 import Geometry.Vec qualified as Vec
@@ -53,21 +50,9 @@ axisOf :: Carving -> (Part.Contour, [Part.Contour]) -> [Branch]
 axisOf c (outline, holes) =
   MedialAxis.branches (Mm (Tolerance.axisShare * limit)) (Part.carvingReach c) loops
   where
-    loops = fmap (simplified allowed . Part.polyarcOf) (outline :| holes)
+    loops = fmap (PolyarcFit.simplified allowed . Part.polyarcOf) (outline :| holes)
     allowed = times Tolerance.contourShare (Mm limit)
     Mm limit = uncurry min (Part.deviationLimits (Part.carvingTolerance c))
-
--- | A contour of fewer lines and arcs within a tolerance, if that halves their count. This is so
--- for contours of curves, which have very many arcs. Others are kept.
-simplified :: Mm -> Polyarc -> Polyarc
-simplified tolerance contour
-  | 2 * NonEmpty.length fewer <= NonEmpty.length all' = contour {Polyarc.segments = fewer}
-  | otherwise = contour
-  where
-    all' = Polyarc.segments contour
-    fewer =
-      MeasuredPolyarc.segments
-        (MeasuredPolyarc.fromFlatPolyarc (PolyarcFit.approximate tolerance all'))
 
 -- | The moves to a chain, down, along it, and up. @at@ is the position of the tool before.
 chainMoves :: Region -> Carving -> SpacePoint -> NonEmpty Branch -> [Move]

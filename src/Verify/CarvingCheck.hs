@@ -19,11 +19,13 @@ import Data.List.NonEmpty qualified as NonEmpty
 import Data.Semigroup (sconcat)
 import Frame.Frame (FrameProgram)
 import Frame.Frame qualified as Frame
+import Geometry.ArcFitting.PolyarcFit qualified as PolyarcFit
 import Geometry.Distance qualified as Distance
 import Geometry.Index.BoundingBox (BoundingBox)
 import Geometry.Index.BoundingBox qualified as BoundingBox
 import Geometry.Index.BoxTree (BoxTree)
 import Geometry.Index.BoxTree qualified as BoxTree
+import Geometry.Polyarc (Polyarc)
 import Geometry.Polyarc qualified as Polyarc
 import Geometry.Segment (Segment (..))
 import Geometry.Segment qualified as Segment
@@ -74,32 +76,45 @@ carvingFindings machine path program isAligned toolsIn motions =
     blocks = Toolpath.blocks path
     isLow m = uncurry min (Motion.heights m) < Mm 0
     ofBlock n tool c
-      | isAligned = [m | m <- motions, IntMap.lookup (number m) roles == Just (Frame.Carving n)]
+      | isAligned = IntMap.findWithDefault [] n aligned
       | otherwise = [m | m <- motions, tool `elem` toolsIn m, isNear c m]
     roles = IntMap.fromList (zip [1 ..] (map Frame.role (Frame.plannedFrames program)))
+    aligned =
+      IntMap.fromListWith
+        (<>)
+        [ (n, [m])
+          | m <- reverse motions,
+            Just (Frame.Carving n) <- [IntMap.lookup (number m) roles]
+        ]
     isNear c m = BoundingBox.meets (Motion.box m) (boxOf c)
     boxOf c =
-      boxAround (sconcat (fmap segmentsOf (Part.carvedAreas c)))
+      boxAround (sconcat (fmap (segmentsBy id) (Part.carvedAreas c)))
 
 boxAround :: NonEmpty Segment -> BoundingBox
 boxAround = foldr1 BoundingBox.union . fmap BoundingBox.ofSegment
 
-segmentsOf :: (Part.Contour, [Part.Contour]) -> NonEmpty Segment
-segmentsOf (outline, holes) =
-  let first :| more = Polyarc.segments (Part.polyarcOf outline)
-   in first :| (more <> concatMap (NonEmpty.toList . Polyarc.segments . Part.polyarcOf) holes)
+-- | The share of the allowed deviation by which the compared contours may deviate from those of the
+-- part. Contours of curves have very many arcs; fewer of them take their place.
+contourShare :: Double
+contourShare = 0.05
+
+-- | The segments of an area, with the area on their left, after a change of its contours.
+segmentsBy :: (Polyarc -> Polyarc) -> (Part.Contour, [Part.Contour]) -> NonEmpty Segment
+segmentsBy change (outline, holes) =
+  sconcat (fmap (Polyarc.segments . change . Part.polyarcOf) (outline :| holes))
 
 carvedOf :: Machine -> Region -> Carving -> Carved
 carvedOf machine statement carving =
   Carved
     { statement,
       carving,
-      areas = BoxTree.index fst [(boxAround ss, treeOf ss) | ss <- loops],
-      edges = treeOf (sconcat (fmap segmentsOf (Part.carvedAreas carving))),
-      allowed = most + pulse + pulseZ * slope carving
+      areas = BoxTree.index fst [(boxAround ss, treeOf ss) | ss <- NonEmpty.toList loops],
+      edges = treeOf (sconcat loops),
+      allowed = (1 - contourShare) * most + pulse + pulseZ * slope carving
     }
   where
-    loops = map segmentsOf (NonEmpty.toList (Part.carvedAreas carving))
+    loops = fmap (segmentsBy simpler) (Part.carvedAreas carving)
+    simpler = PolyarcFit.simplified (Mm (contourShare * most))
     treeOf = BoxTree.index BoundingBox.ofSegment . NonEmpty.toList
     Mm most = uncurry max (Part.deviationLimits (Part.carvingTolerance carving))
     Mm pulse = Machine.planeResolution machine

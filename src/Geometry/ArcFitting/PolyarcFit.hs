@@ -20,6 +20,7 @@
 -- segment and the index @to@ after its last. A pose is a position in mm with a unit direction.
 module Geometry.ArcFitting.PolyarcFit
   ( approximate,
+    simplified,
     smoothed,
   )
 where
@@ -44,6 +45,8 @@ import Geometry.ArcFitting.ParametricFit qualified as ParametricFit
 import Geometry.Carrier qualified as Carrier
 import Geometry.FlatPolyarc (FlatPolyarc)
 import Geometry.MeasuredPolyarc qualified as MeasuredPolyarc
+import Geometry.Polyarc (Polyarc)
+import Geometry.Polyarc qualified as Polyarc
 import Geometry.Segment (Segment (..))
 import Geometry.Segment qualified as Segment
 import Geometry.Tolerance qualified as Tolerance
@@ -72,6 +75,18 @@ approximate (Mm tolerance) segments = runST $ do
     chain = tableOf segments
     n = Unboxed.length (stations chain) - 1
     end = Segment.end (NonEmpty.last segments)
+
+-- | A polyarc of fewer lines and arcs within a tolerance, as 'approximate' finds it, if that halves
+-- their count. This is so for contours of curves, which have very many arcs. Others are kept.
+simplified :: Mm -> Polyarc -> Polyarc
+simplified tolerance contour
+  | 2 * NonEmpty.length fewer <= NonEmpty.length every = contour {Polyarc.segments = fewer}
+  | otherwise = contour
+  where
+    every = Polyarc.segments contour
+    fewer =
+      MeasuredPolyarc.segments
+        (MeasuredPolyarc.fromFlatPolyarc (approximate tolerance every))
 
 -- | Parameter range of the segments @from@ to @to − 1@, in arc length. The step that is tried first
 -- is the whole range.
