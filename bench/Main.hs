@@ -31,6 +31,10 @@ main = do
       run page folder [(name, drop 1 value) | o <- options, let (name, value) = break (== '=') o]
     _ -> die "bench PAGE FOLDER NAME=COMMAND…"
 
+-- | The font of the V-carved letters.
+boldFont :: FilePath
+boldFont = "/usr/share/fonts/truetype/dejavu/DejaVuSans-Bold.ttf"
+
 -- | Runs the benchmark. The options are commands that are required (kernel, stages, pulses, partc,
 -- cost) and optional (cavalier, chords, rs274), and the following. parts: the parts of the
 -- benchmark to run. most: the largest number of segments and elements. seconds: the longest
@@ -47,6 +51,9 @@ run page folder options = do
   when ("stages" `elem` parts) $ Whole.staged tools most seconds >>= place "stages"
   when ("mills" `elem` parts) $ Whole.doubled tools >>= place "mills"
   when ("stock" `elem` parts) $ Whole.stocked tools (folder </> "programs") >>= place "stock"
+  when ("letters" `elem` parts) $
+    Whole.lettered tools (folder </> "programs") boldFont
+      >>= place "letters"
   when ("controllers" `elem` parts) $
     Peer.command 600 [option "pulses" "pulses"] >>= either (die . Text.unpack) (place "controllers")
   forM_ (lookup "before" options) $ \earlier -> do
@@ -57,7 +64,7 @@ run page folder options = do
       >>= place "whole"
   where
     option name otherwise' = fromMaybe otherwise' (lookup name options)
-    parts = words (option "parts" "kernel stages mills stock controllers whole")
+    parts = words (option "parts" "kernel stages mills stock letters controllers whole")
     most = fromMaybe 1000000 (readMaybe (option "most" ""))
     seconds = fromMaybe 20 (readMaybe (option "seconds" "")) :: Double
     place :: Text -> Text -> IO ()

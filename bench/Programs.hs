@@ -58,6 +58,10 @@ data Kind
     PlainPlate
   | -- | the union of as many circles, of which each meets its neighbours in a grid
     Circles
+  | -- | as many engraved letters, in lines of 50
+    Engraved
+  | -- | as many V-carved letters of the font @letters.ttf@, in lines of 50
+    Carved
   deriving stock (Eq, Show, Read, Enum, Bounded)
 
 -- | The name of a kind in the tables.
@@ -81,15 +85,18 @@ name kind = case kind of
   Plate -> "plate with stock"
   PlainPlate -> "plate"
   Circles -> "union of circles"
+  Engraved -> "engraved letters"
+  Carved -> "V-carved letters"
 
 -- | The largest number of elements. With ten times as many, the program would need more than a
 -- million frames or ten thousand passes, or coordinates beyond the largest one, or pockets that
--- take minutes; programs written by hand are smaller. The last five kinds have tables of their own.
+-- take minutes; programs written by hand are smaller. The last seven kinds have tables of their
+-- own.
 most :: Kind -> Int
 most kind
   | kind `elem` [Rows, Wavy, LinesFile] = 1000000
   | kind `elem` [RoundPocket, Comb, Islands, Rests] = 10000
-  | kind `elem` [OneContour, Nested, Plate, PlainPlate, Circles] = 64
+  | kind `elem` [OneContour, Nested, Plate, PlainPlate, Circles, Engraved, Carved] = 64
   | otherwise = 100000
 
 -- | The text of a program, and the files that it reads, by their names.
@@ -124,6 +131,18 @@ written kind n = case kind of
   Plate -> Written (plate True n) []
   PlainPlate -> Written (plate False n) []
   Circles -> Written (circles n) []
+  Engraved ->
+    Written (plateOf n (\_ line at -> "engrave " <> line <> at <> " { depth 0.3 plunge 200 }")) []
+  Carved ->
+    Written
+      ( plateOf n $ \k line at ->
+          let region = "line" <> Decimal.whole k
+           in "contours " <> region <> " from \"letters.ttf\" text " <> line <> at
+                <> "\nvcarve "
+                <> region
+                <> " { depth 2 plunge 200 }"
+      )
+      []
   where
     cornered side more =
       Written
@@ -309,6 +328,27 @@ circles n =
     <> "])\nfor c in outlines_of(all) { mill c outside { depth 1 mm rest allowed } }\n"
   where
     side = ceiling (sqrt (fromIntegral n :: Double)) :: Int
+
+-- | A name plate of @n@ letters in lines of up to 50. The function writes the statements of a line
+-- from its number, its text in quotation marks, and its place.
+plateOf :: Int -> (Int -> Text -> Text -> Text) -> Text
+plateOf n statementsOf =
+  Text.unlines $
+    [ "part plate",
+      "machine linuxcnc-mill",
+      "tool 1 vbit(angle 60 deg, tip 0, diameter 6)",
+      "feed 600",
+      "tolerance 0.02",
+      "clearance 2",
+      "from (0, 0, 2)",
+      "spindle cw 12000 rpm"
+    ]
+      <> [ statementsOf k ("\"" <> line <> "\"") (at k)
+           | (k, line) <- zip [0 ..] (Text.chunksOf 50 letters)
+         ]
+  where
+    at k = " at (0, " <> Decimal.whole (8 * k) <> ") height 5"
+    letters = Text.take n (Text.replicate (n `div` 15 + 1) "ABDEGKMNOPRSTUV")
 
 -- | A point with whole coordinates in mm.
 point :: (Int, Int) -> Text

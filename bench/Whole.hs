@@ -5,13 +5,14 @@ module Whole
     staged,
     doubled,
     stocked,
+    lettered,
     besideBefore,
     besideInterpreter,
   )
 where
 
 import Base.Decimal qualified as Decimal
-import Control.Monad (foldM, forM, forM_)
+import Control.Monad (foldM, forM, forM_, when)
 import Data.List (sort, transpose)
 import Data.Text (Text)
 import Data.Text qualified as Text
@@ -19,7 +20,7 @@ import Data.Text.IO qualified as Text
 import Peer qualified
 import Programs (Kind (..), Written (..))
 import Programs qualified
-import System.Directory (createDirectoryIfMissing)
+import System.Directory (copyFile, createDirectoryIfMissing, doesFileExist)
 import System.FilePath ((</>))
 import System.IO (hFlush, stdout)
 import Table qualified
@@ -218,6 +219,35 @@ stocked tools folder = do
     timed arguments =
       fmap (Peer.middle . map fst) . sequence
         <$> mapM (const (costOf tools 60 (partc tools : arguments))) [1 .. 5 :: Int]
+
+-- Letters -----------------------------------------------------------------------------------------
+
+-- | Name plates with engraved and with V-carved letters: the seconds that @compile@ takes, and the
+-- ratio to that of half the size. The V-carved letters are those of a font.
+lettered :: Tools -> FilePath -> FilePath -> IO Text
+lettered tools folder font = do
+  createDirectoryIfMissing True folder
+  hasFont <- doesFileExist font
+  when hasFont (copyFile font (folder </> "letters.ttf"))
+  Table.table ["program", "letters", "compile, s", "of half as many"] . concat
+    <$> mapM rowsOf ([Engraved] <> [Carved | hasFont])
+  where
+    sizes = [500, 1000, 2000]
+    rowsOf kind = do
+      measured <- mapM (measure kind) sizes
+      pure (zipWith3 (row kind) sizes (Left "" : measured) measured)
+    row :: Kind -> Int -> Either Text Double -> Either Text Double -> Table.Row
+    row kind n half compiled =
+      [ Programs.name kind,
+        Decimal.whole n,
+        either (const "–") Table.number compiled,
+        either (const "") (Decimal.fixed 2) ((/) <$> compiled <*> half)
+      ]
+    measure kind n = do
+      Text.writeFile (folder </> "plate.part") (Programs.text (Programs.written kind n))
+      fmap (Peer.middle . map fst) . sequence
+        <$> mapM (const (costOf tools 120 command)) [1 .. 5 :: Int]
+    command = [partc tools, "compile", folder </> "plate.part", "-o", folder </> "plate.ngc"]
 
 -- The state before -------------------------------------------------------------------------------
 

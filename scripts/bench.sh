@@ -52,7 +52,7 @@ options=(
   "pulses=$dist/build/pulses/pulses"
   "partc=$dist/build/partc/partc"
   "cost=python3 $root/bench/peers/cost.py"
-  "parts=${PARTC_BENCH_PARTS:-kernel stages mills stock controllers whole}"
+  "parts=${PARTC_BENCH_PARTS:-kernel stages mills stock letters controllers whole}"
   "most=${PARTC_BENCH_MOST:-1000000}"
   "seconds=${PARTC_BENCH_SECONDS:-20}"
 )

@@ -18,6 +18,7 @@ import Checked.Dimension (Dimension)
 import Checked.Dimension qualified as Dimension
 import Checked.Syntax (Expr)
 import Checked.Syntax qualified as Checked
+import Control.Monad (mfilter)
 import Data.List (foldl', sortOn)
 import Data.List.NonEmpty (NonEmpty (..))
 import Data.List.NonEmpty qualified as NonEmpty
@@ -228,8 +229,11 @@ step state (Located at s) = case s of
     keep (Machining.milling now Milled at e side settings) (eachPerformed Mill)
   Checked.Pocket e stepover own settings ->
     keep (Machining.pocketing now at e stepover settings) $ \found ->
-      let before = if null (concat found) then Nothing else Pockets <$> found
-       in nameOperation at own before (eachPerformed Pocket found)
+      nameOperation
+        at
+        own
+        (Pockets <$> mfilter (not . null) found)
+        (eachPerformed Pocket found)
   Checked.RestOf e stepover settings ->
     keep (RestMachining.restOf now at e stepover settings) (eachPerformed Pocket)
   Checked.Face e stepover settings ->

@@ -82,9 +82,9 @@ floors c moves =
   [ p
     | m <- moves,
       isDeepest m,
+      let s = Toolpath.segment m,
       t <- [0.1, 0.5, 0.9],
       side <- [Vec.left, Vec.scale (-1) . Vec.left],
-      let s = Toolpath.segment m,
       let p = Vec.shift (Vec.scale aside (side (Segment.directionAt t s))) (Segment.at t s),
       area <- BoxTree.within (BoundingBox.ofPoints p []) areas,
       Just (far, _) <- [BoxTree.closest (Distance.toPoint p) p (edges area)],
