@@ -37,8 +37,8 @@ import Geometry.Vec (Point, Vec)
 import Geometry.Vec qualified as Vec
 import Offset.Tolerance qualified as Tolerance
 
--- | A disc in the area: its centre and its radius in mm.
-data Disc = Disc {discCentre :: Point, discRadius :: Double}
+-- | A disc in the area.
+data Disc = Disc {discCentre :: Point, discRadius :: Mm}
   deriving stock (Eq, Show)
 
 -- | A stretch of the path of the centre of a disc.
@@ -46,7 +46,7 @@ data Stretch
   = -- | a straight line between the centres of two discs; the radius changes evenly
     Sloping Disc Disc
   | -- | an arc on which the radius stays the same
-    Level Segment Double
+    Level Segment Mm
   deriving stock (Eq, Show)
 
 -- | Stretches of which each begins where the one before it ends. A branch that is only a point has
@@ -424,17 +424,18 @@ branchOf :: Double -> Followed -> (Double, Double, Bound) -> [Branch]
 branchOf tolerance f (a, b, bound') = case bound' of
   Other k | k < own f -> []
   Itself -> [Sloping (discAt a) (discAt a) :| []]
-  _ | isLevel, Just s <- levelArc f first a b -> [Level s first :| []]
+  _ | isLevel, Just s <- levelArc f first a b -> [Level s (Mm first) :| []]
   _ -> [straight a (discAt a) b (discAt b)]
   where
-    first = discRadius (discAt a)
-    isLevel = all (\t -> abs (discRadius (discAt (a + t * (b - a))) - first) <= smallest) compared
+    Mm first = discRadius (discAt a)
+    isLevel = all (\t -> abs (radiusAt (a + t * (b - a)) - first) <= smallest) compared
+    radiusAt u = let Mm r = discRadius (discAt u) in r
     compared = [0.25, 0.5, 1]
     Mm smallest = Tolerance.smallestDisc
     discAt u =
       let (p, n) = contact (site f) u
           r = min (most f) (radiusOf f u bound' `orAt` radius (sample f 0 u))
-       in Disc (Vec.shift (Vec.scale r n) p) r
+       in Disc (Vec.shift (Vec.scale r n) p) (Mm r)
     orAt r other = if isInfinite r then other else r
     -- Stretches between two shares, halved until they are near enough to the axis.
     straight u d v e
@@ -442,12 +443,12 @@ branchOf tolerance f (a, b, bound') = case bound' of
       | otherwise = let m = (u + v) / 2; h = discAt m in straight u d m h <> straight m h v e
       where
         isNear x y t = deviation x y (discAt (u + t * (v - u))) <= tolerance
-    deviation x y (Disc c r) =
+    deviation x@(Disc _ (Mm r0)) y@(Disc _ (Mm r1)) (Disc c (Mm r)) =
       let axis = Vec.to (discCentre x) (discCentre y)
           l = Vec.dot axis axis
           t = if l > 0 then Vec.dot axis (Vec.to (discCentre x) c) / l else 0
           Mm off = Vec.distance (Vec.interpolate t (discCentre x) (discCentre y)) c
-       in max off (abs (discRadius x + t * (discRadius y - discRadius x) - r))
+       in max off (abs (r0 + t * (r1 - r0) - r))
 
 -- | The arc on which the centre of a disc of the radius @r@ moves along a piece of an arc or of a
 -- corner; Nothing for a line.

@@ -9,7 +9,7 @@ module Toolpath.CarvingChain
   )
 where
 
-import Base.Quantity (Mm (..))
+import Base.Quantity (Mm (..), minus, over)
 import Data.IntMap.Strict (IntMap)
 import Data.IntMap.Strict qualified as IntMap
 import Data.IntSet (IntSet)
@@ -26,8 +26,8 @@ import Offset.MedialAxis (Branch, Disc (..), Stretch (..))
 import Offset.MedialAxis qualified as MedialAxis
 import Toolpath.Tolerance qualified as Tolerance
 
--- | The parts of a branch whose discs have at least the radius @tip@ in mm.
-deepParts :: Double -> Branch -> [Branch]
+-- | The parts of a branch whose discs have at least the radius @tip@.
+deepParts :: Mm -> Branch -> [Branch]
 deepParts tip branch = collect (map cut (NonEmpty.toList branch))
   where
     cut s = case s of
@@ -40,7 +40,7 @@ deepParts tip branch = collect (map cut (NonEmpty.toList branch))
         where
           (a, b) = (discRadius d, discRadius e)
     at d e =
-      let t = (tip - discRadius d) / (discRadius e - discRadius d)
+      let t = over (minus tip (discRadius d)) (minus (discRadius e) (discRadius d))
        in Disc (Vec.interpolate t (discCentre d) (discCentre e)) tip
     collect list = case list of
       [] -> []

@@ -5,7 +5,7 @@ module Toolpath.CarvingPath
   )
 where
 
-import Base.Quantity (Mm (..), Rad (..), times)
+import Base.Quantity (Mm (..), Rad (..), minus, plus, times)
 import Base.Region (Located (..), Region)
 import Data.List (mapAccumL)
 import Data.List.NonEmpty (NonEmpty (..))
@@ -38,8 +38,7 @@ moves at (Located region c) = case concat (snd (mapAccumL alongChain at chains))
   where
     word = LinkingMove.keyword 6 region
     axes = map (axisOf c) (NonEmpty.toList (Part.carvedAreas c))
-    deep = map (concatMap (CarvingChain.deepParts tip)) axes
-    Mm tip = Part.carvingTip c
+    deep = map (concatMap (CarvingChain.deepParts (Part.carvingTip c))) axes
     chains = concatMap CarvingChain.chains deep
     alongChain from chain = (LinkingMove.endPosition from made, made)
       where
@@ -76,12 +75,12 @@ chainMoves word c at chain =
         Move (Straight p q) (Manner (heightAt c a, heightAt c b) feed False) word False
       Level g r -> Move g (Manner (heightAt c r, heightAt c r) feed False) word False
 
--- | The height of the tip at which the cone has a radius in mm at the top of the part. The radius
--- is at least that of the tip.
-heightAt :: Carving -> Double -> Mm
-heightAt c r = Mm (negate (max 0 (r - tip)) / tan half)
+-- | The height of the tip at which the cone has a radius at the top of the part. The radius is at
+-- least that of the tip.
+heightAt :: Carving -> Mm -> Mm
+heightAt c r = Mm (negate wider / tan half)
   where
-    Mm tip = Part.carvingTip c
+    Mm wider = max (Mm 0) (minus r (Part.carvingTip c))
     Rad half = Part.halfAngle c
 
 -- | The material in corners and narrow places of the areas that the tip leaves: the count of such
@@ -100,9 +99,9 @@ restOf c axes = foldr1 thicker <$> NonEmpty.nonEmpty (map single (filter isThick
 -- discs that are smaller than the tip go beyond the nearest one as large as the tip by this
 -- thickness. If all are smaller, it is the diameter of the largest one.
 narrowest :: Mm -> Branch -> Maybe (Mm, Point)
-narrowest (Mm tip) branch = case (filter isNarrow discs, ends) of
+narrowest tip branch = case (filter isNarrow discs, ends) of
   ([], _) -> Nothing
-  (small, []) -> Just (largest [(2 * discRadius d, discCentre d) | d <- small])
+  (small, []) -> Just (largest [(times 2 (discRadius d), discCentre d) | d <- small])
   (small, _) -> Just (largest [(minimum (map (beyond d) ends), discCentre d) | d <- small])
   where
     discs = MedialAxis.firstDisc branch : map final (NonEmpty.toList branch)
@@ -113,5 +112,5 @@ narrowest (Mm tip) branch = case (filter isNarrow discs, ends) of
         [ [MedialAxis.firstDisc b, MedialAxis.lastDisc b]
           | b <- CarvingChain.deepParts tip branch
         ]
-    beyond (Disc p r) (Disc q _) = let Mm d = Vec.distance p q in d + r - tip
-    largest list = let (t, p) = foldr1 (\a b -> if fst a >= fst b then a else b) list in (Mm t, p)
+    beyond (Disc p r) (Disc q _) = minus (plus (Vec.distance p q) r) tip
+    largest = foldr1 (\a b -> if fst a >= fst b then a else b)

@@ -31,7 +31,7 @@ spec = do
          in conjoin
               [ counterexample (show (d, clearance loops c)) $
                   isInside loops c r .&&. abs (clearance loops c - r) <= 2 * tolerance
-                | d@(Disc c r) <- concatMap discsAlong axis
+                | d@(Disc c (Mm r)) <- concatMap discsAlong axis
               ]
   it
     "the largest disc at any point of the boundary is on the medial axis (catches branches that \
@@ -44,7 +44,7 @@ spec = do
               n = Vec.left (Segment.directionAt u s)
               r = largest loops most p n
               c = Vec.shift (Vec.scale r n) p
-              nearest = minimum (map (distanceOf (Disc c r)) (branchesOf most loops))
+              nearest = minimum (map (distanceOf (Disc c (Mm r))) (branchesOf most loops))
            in counterexample (show (p, r, c, nearest)) (nearest <= 3 * tolerance)
   where
     tolerance = 1e-5
@@ -80,17 +80,17 @@ discsAlong branch = [discIn t s | s <- NonEmpty.toList branch, t <- [0, 0.2, 0.5
 
 discIn :: Double -> Stretch -> Disc
 discIn t stretch = case stretch of
-  Sloping (Disc p a) (Disc q b) -> Disc (Vec.interpolate t p q) (a + t * (b - a))
+  Sloping (Disc p (Mm a)) (Disc q (Mm b)) -> Disc (Vec.interpolate t p q) (Mm (a + t * (b - a)))
   Level s r -> Disc (Segment.at t s) r
 
 -- | The distance of a disc from the nearest one of a branch, as the larger one of the distance of
 -- the centres and the difference of the radii.
 distanceOf :: Disc -> Branch -> Double
-distanceOf (Disc c r) branch =
+distanceOf (Disc c (Mm r)) branch =
   minimum
     [ max d (abs (r - s))
       | stretch <- NonEmpty.toList branch,
-        let Disc q s = discIn (share stretch) stretch,
+        let Disc q (Mm s) = discIn (share stretch) stretch,
         let Mm d = Vec.distance c q
     ]
   where
