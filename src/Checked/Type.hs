@@ -121,7 +121,7 @@ describe t = case t of
   Line -> "a line"
   Contour -> "a contour"
   PlaneRegion -> "a region"
-  Clearing -> "a pocket operation"
+  Clearing -> "a pocket or a V-carving with a name"
   Boolean -> "true or false"
   SpacePoint -> "a point with a height"
   Transformation -> "a transformation"
@@ -135,7 +135,7 @@ describe t = case t of
     Line -> "a list of lines"
     Contour -> "a list of contours"
     PlaneRegion -> "a list of regions"
-    Clearing -> "a list of pocket operations"
+    Clearing -> "a list of pockets and V-carvings with names"
     Curve _ -> "a list of curves"
     ListOf _ | Just items <- Text.stripPrefix "a list" (describe item) -> "a list of lists" <> items
     _ -> "a list"

@@ -180,6 +180,7 @@ pocketText unit machine pocket pass cleared =
     kind = case Part.extent (value pocket) of
       Part.WholePocket -> "Pocket "
       Part.RestOfPocket _ -> "Rest of pocket "
+      Part.FloorOfCarving -> "Floor of carving "
       Part.Surface _ -> "Surface "
 
 -- | The count of moves, the length and the time of a V-carving.

@@ -11,6 +11,7 @@ module Geometry.Transformation
     after,
 
     -- * Application
+    factor,
     mirrors,
     point,
     line,

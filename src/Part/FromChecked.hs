@@ -30,6 +30,7 @@ import Data.Vector qualified as Vector
 import Geometry.Carrier (Circle (Circle))
 import Geometry.Tolerance qualified as Tolerance
 import Geometry.Transformation (Transformation)
+import Geometry.Transformation qualified as Geometry
 import Geometry.Vec (Point)
 import Geometry.Vec qualified as Vec
 import Part.Assertion qualified as Assertion
@@ -157,7 +158,8 @@ initial inUnit =
             modalFeed = Nothing,
             clearanceHeight = Nothing,
             modalSense = Clockwise,
-            modalRate = NoRate
+            modalRate = NoRate,
+            scaledBy = 1
           },
       initialCutter = Nothing,
       initialNumber = Nothing,
@@ -479,10 +481,14 @@ transformed body placing state =
     { operations' =
         map (Transformation.operation placing) (operations' inside) <> operations' state,
       avoided' =
-        map (fmap (Transformation.solid placing)) (avoided' inside) <> avoided' state
+        map (fmap (Transformation.solid placing)) (avoided' inside) <> avoided' state,
+      context = (context inside) {scaledBy = scaledBy (context state)}
     }
   where
-    inside = foldl step (withEnvironment state outside) {operations' = [], avoided' = []} body
+    inside = foldl step before {operations' = [], avoided' = []} body
+    before = scaled (withEnvironment state outside)
+    scaled s =
+      s {context = (context s) {scaledBy = Geometry.factor placing * scaledBy (context s)}}
     outside = env {values = Map.map elsewhere (values env), locals = Map.map elsewhere (locals env)}
     env = environment (context state)
 

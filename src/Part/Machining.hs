@@ -68,7 +68,9 @@ data Context = Context
     clearanceHeight :: Maybe Mm,
     modalSense :: Sense,
     -- | how fast the spindle turns
-    modalRate :: SpindleRate
+    modalRate :: SpindleRate,
+    -- | the factor by which the transformations around the statement scale its contours
+    scaledBy :: Double
   }
 
 -- Milling and turning

@@ -38,6 +38,7 @@ module Part.Part
     Circling (..),
     Carving (..),
     carvingReach,
+    carvingFlank,
     ThreadHelix (..),
     runsOf,
     Command (..),
@@ -377,6 +378,8 @@ data ClearedExtent
     WholePocket
   | -- | of that, what an operation with a larger cutter has left
     RestOfPocket Roughing
+  | -- | all that the cutter reaches without cutting the flanks of a V-carving
+    FloorOfCarving
   | -- | the surface of the region: the cutter also runs over its contours
     Surface Facing
   deriving stock (Eq, Show)
@@ -386,6 +389,7 @@ roughing :: Pocketing -> Maybe Roughing
 roughing p = case extent p of
   RestOfPocket r -> Just r
   WholePocket -> Nothing
+  FloorOfCarving -> Nothing
   Surface _ -> Nothing
 
 -- | The facing that a clearing is.
@@ -393,6 +397,7 @@ surface :: Pocketing -> Maybe Facing
 surface p = case extent p of
   Surface f -> Just f
   WholePocket -> Nothing
+  FloorOfCarving -> Nothing
   RestOfPocket _ -> Nothing
 
 -- | Parallel passes over a region.
@@ -547,7 +552,11 @@ data Carving = Carving
 
 -- | The distance of the axis of a V-carving's tool, at the largest depth, from the contours.
 carvingReach :: Carving -> Mm
-carvingReach c = let Rad a = halfAngle c in plus (carvingTip c) (times (tan a) (carvingDepth c))
+carvingReach c = plus (carvingTip c) (carvingFlank c)
+
+-- | The distance of the flank of a V-carving's tool, at the largest depth, from the contours.
+carvingFlank :: Carving -> Mm
+carvingFlank c = let Rad a = halfAngle c in times (tan a) (carvingDepth c)
 
 -- | A command to the machine: an auxiliary function.
 data Command

@@ -6,12 +6,13 @@ module Part.RestMachining
 where
 
 import Base.Crash (bug)
-import Base.Quantity (Mm (..), over, plus, times)
+import Base.Quantity (Mm (..), minus, over, plus, times)
 import Base.Region (Located (..), Region)
 import Checked.Syntax (Expr)
 import Checked.Syntax qualified as Checked
 import Control.Monad (filterM)
 import Data.List.NonEmpty qualified as NonEmpty
+import Data.Maybe (catMaybes)
 import Part.Error (CutterStatement (RestStatement), Error (..), ValueFact (..))
 import Part.Evaluation (Eval)
 import Part.Evaluation qualified as Evaluation
@@ -36,6 +37,7 @@ import Part.PocketError
       ),
   )
 import Part.RegionBuiltin qualified as RegionBuiltin
+import Part.Tolerance qualified as Tolerance
 import Part.Value (MachinedBefore (..), NamedOperation (..), Value (..))
 
 -- | Evaluates the clearing of what the operation @e@ has left. @at@ is the region of the statement
@@ -81,42 +83,51 @@ restOfPockets context at (e, step, settings) operation pockets = do
 refused :: [PocketMisfit] -> Eval a
 refused faults = Evaluation.mistakes [Error (InPocket m) [] [] | m <- faults]
 
--- | Evaluates the clearing of the floors that a V-carving has left. They are the points that are at
--- least as far from the contours as the axis of the cone at its largest depth. Floors into which
--- the cutter does not fit are left out.
+-- | Evaluates the clearing of the floors that a V-carving has left, one in each of its areas. The
+-- cutter leaves the room that the flank of the tool has at its largest depth. Areas whose floor it
+-- does not fit are left out.
 floorsOf ::
   Context -> Region -> Arguments -> NamedOperation -> Carving -> Eval (Maybe [Pocketing])
 floorsOf context at (e, step, settings) operation c
   | isElsewhere operation = refused [RestElsewhere EarlierCarving (region e) there]
   | otherwise = do
-    floors <- concat <$> traverse (inset (carvingReach c)) (NonEmpty.toList (carvedAreas c))
-    wide <- filterM fits floors
-    case (cutter context, wide) of
-      (Just t, []) -> refused [NoFloor (region e) there (times 2 (cutterRadius t))]
-      _ -> do
-        pockets <- traverse pocketOf wide
-        let lowest = [(bottom, lowestOf (wall p)) | Just p <- pockets]
-        case tooDeep settings EarlierCarving operation lowest of
-          [] -> pure (map deepened <$> sequence pockets)
-          faults -> refused faults
+    wide <- filterM (fits (Mm 0)) (NonEmpty.toList (carvedAreas c))
+    pockets <- traverse pocketOf wide
+    cleared <- filterM fitsWithAllowance (catMaybes pockets)
+    let lowest = [(bottom, lowestOf (wall p)) | p <- cleared]
+    case (cutter context, cleared, tooDeep settings EarlierCarving operation lowest) of
+      (Just t, [], _)
+        | length pockets == length (catMaybes pockets) ->
+          refused [NoFloor (region e) there (times 2 (cutterRadius t))]
+      (_, _, faults@(_ : _)) -> refused faults
+      _ -> pure (map floorOf cleared <$ sequence pockets)
   where
     there = operationAt operation
     bottom = times (-1) (carvingDepth c)
-    inset d (outline, holes') = do
-      let name = contourName outline
-      PlaneRegion found <-
-        RegionBuiltin.settled (region e) $
-          PlaneRegion.offsetBy (region e) name (times (-1) d) (outline : holes')
-      pure [(PlaneRegion.outer p, PlaneRegion.holes p) | p <- found]
-    fits part' = case cutter context of
+    -- True if the cutter fits into an area with an allowance. The transformation around the
+    -- statement scales the contours after this.
+    fits allowance (outline, holes') = case cutter context of
       Nothing -> pure True
-      Just t -> not . null <$> inset (cutterRadius t) part'
+      Just t -> do
+        let room = plus (carvingFlank c) (plus (cutterRadius t) allowance)
+            inwards = times (-1 / scaledBy context) (minus room Tolerance.floorRoom)
+        PlaneRegion found <-
+          RegionBuiltin.settled (region e) $
+            PlaneRegion.offsetBy (region e) (contourName outline) inwards (outline : holes')
+        pure (not (null found))
+    fitsWithAllowance p = fits (allowanceOf p) (contour (wall p), islands p)
     pocketOf (outline, holes') =
       Machining.pocketIn context at step settings (named outline) (map named holes')
     named = PocketCheck.Named (region e)
-    deepened p
-      | null (levels (wall p)) = p {wall = (wall p) {levels = [bottom]}}
-      | otherwise = p
+    floorOf p =
+      p
+        { extent = FloorOfCarving,
+          wall =
+            (wall p)
+              { levels = if null (levels (wall p)) then [bottom] else levels (wall p),
+                allowances = fmap (plus (carvingFlank c)) (allowances (wall p))
+              }
+        }
 
 -- | The faults of clearing what an operation has left in its pockets: it is outside of a
 -- transformation around this statement, it has no depth, or its cutter is not larger. @at@ is the

@@ -9,6 +9,7 @@ module Part.Tolerance
     smoothTurn,
     shape,
     joint,
+    floorRoom,
   )
 where
 
@@ -51,3 +52,8 @@ shape = Mm 1e-6
 -- | The largest distance between two lines or arcs of a region that become one.
 joint :: Mm
 joint = Mm 1e-9
+
+-- | The largest amount by which half the width of a floor may be below the radius of a mill that
+-- fits into it. A floor exactly as wide as the mill is wide enough, whatever the rounding.
+floorRoom :: Mm
+floorRoom = Mm 1e-6

@@ -56,6 +56,7 @@ operation s o = case o of
     extentOf cleared = case cleared of
       Surface (Facing direction) -> Surface (Facing (moved direction))
       WholePocket -> cleared
+      FloorOfCarving -> cleared
       RestOfPocket _ -> cleared
     moved v = Vec.to (movedPoint (Vec.point 0 0)) (movedPoint (Vec.shift v (Vec.point 0 0)))
     movedPoint = Transformation.point s

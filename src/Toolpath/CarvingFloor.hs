@@ -35,7 +35,7 @@ data Floor = Floor {carvedBy :: Region, floorAt :: Point}
 data Area = Area {box :: BoundingBox, outline :: Polyarc, edges :: BoxTree Segment}
 
 -- | For each V-carving, the first of its floors that no pocket of the toolpath clears down to its
--- depth. Floors narrower than the tolerance do not count.
+-- depth, and that no deeper V-carving carves. Floors narrower than the tolerance do not count.
 uncleared :: Toolpath -> [Floor]
 uncleared path =
   concat
@@ -43,7 +43,14 @@ uncleared path =
       | Carved (Located region c) ms _ <- Toolpath.blocks path
     ]
   where
-    isCleared c p =
+    isCleared c p = isInPocket c p || isCarvedDeeper c p
+    isCarvedDeeper c p =
+      or
+        [ Part.carvingDepth other > plus (Part.carvingDepth c) Tolerance.coincident
+            && any (\a -> WindingNumber.encloses (outline a) p) (areasOf other)
+          | Carved (Located _ other) _ _ <- Toolpath.blocks path
+        ]
+    isInPocket c p =
       or
         [ WindingNumber.encloses outer p
             && not (any (`WindingNumber.encloses` p) islands)
@@ -93,7 +100,7 @@ floors c moves =
   ]
   where
     areas = BoxTree.index box (areasOf c)
-    Mm aside = plus (Part.carvingTip c) (slack c)
+    Mm aside = plus (Part.carvingTip c) (times 0.5 (slack c))
     isDeepest m =
       Segment.length (Toolpath.segment m) > Mm aside
         && snd (Toolpath.heights m) <= bottom

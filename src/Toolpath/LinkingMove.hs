@@ -191,6 +191,7 @@ pocketKeyword (Located region p) = keyword letters region
     letters = case Part.extent p of
       Part.WholePocket -> 6
       Part.RestOfPocket _ -> 4
+      Part.FloorOfCarving -> 4
       Part.Surface _ -> 4
 
 -- | Shortens the region of a statement to its first word, which has @letters@ letters.

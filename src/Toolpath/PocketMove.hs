@@ -308,9 +308,8 @@ movesOf wayDown slopeTo Visit {LinkingMove.word, LinkingMove.milling} z travelHe
 sectionsFor :: Pocketing -> NonEmpty (Maybe Point -> Maybe [PocketMove])
 sectionsFor pocket = case extent pocket of
   Surface face -> (Just . FacePath.sections pocket face) :| []
-  WholePocket ->
-    (\from -> Pocket.clear (room first) step from)
-      :| zipWith (\before a -> Pocket.finishWalls (room a) step before) (first : more) more
+  WholePocket -> whole
+  FloorOfCarving -> whole
   RestOfPocket rough ->
     let along a distances =
           let found = RestPath.areas (room a) rough distances
@@ -321,6 +320,9 @@ sectionsFor pocket = case extent pocket of
             (first : more)
             more
   where
+    whole =
+      (\from -> Pocket.clear (room first) step from)
+        :| zipWith (\before a -> Pocket.finishWalls (room a) step before) (first : more) more
     first :| more = Part.allowances (wall pocket)
     step = stepover pocket
     contours =

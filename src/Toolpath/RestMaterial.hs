@@ -6,7 +6,7 @@ module Toolpath.RestMaterial
   )
 where
 
-import Base.Quantity (Mm)
+import Base.Quantity (Mm (..), over)
 import Base.Region (Located (..), Region)
 import Data.List.NonEmpty (NonEmpty (..))
 import Data.List.NonEmpty qualified as NonEmpty
@@ -14,9 +14,12 @@ import Data.Map.Strict qualified as Map
 import Data.Maybe (mapMaybe)
 import Data.Set qualified as Set
 import Data.Vector qualified as Vector
+import Geometry.Transformation qualified as Transformation
 import Offset.Equidistant (UnreachedPart)
+import Offset.Equidistant qualified as Equidistant
+import Offset.RestMaterial (RestMaterial (Within))
 import Part.Break qualified as Break
-import Part.Part (Contour, Milling)
+import Part.Part (Contour, Milling, Pocketing)
 import Part.Part qualified as Part
 import Toolpath.Error (RestPosition, Tool (..))
 import Toolpath.LinkingMove qualified as LinkingMove
@@ -63,11 +66,26 @@ ofBlock block = case block of
     remaining (LinkingMove.keyword 4 region) m [] pass <$> NonEmpty.nonEmpty rests
   Clearing {pocket = job@(Located _ p), pass, rests} ->
     remaining (LinkingMove.pocketKeyword job) (Part.wall p) (Part.islands p) pass
-      <$> NonEmpty.nonEmpty rests
+      <$> NonEmpty.nonEmpty (map (atFloor p pass) rests)
   Travelling {} -> Nothing
   Holing _ _ -> Nothing
   Carved {} -> Nothing
   Commanding _ -> Nothing
+
+-- | The rest in a corner of the floor of a V-carving. Between it and the contours the flank is
+-- carved. So it is that of a cutter with the allowance, shrunk towards the centre of the cutter
+-- until only the cutter is left. This is exact between straight contours.
+atFloor :: Pocketing -> Pass -> UnreachedPart -> UnreachedPart
+atFloor p pass rest = case Equidistant.restMaterial rest of
+  Within boundary
+    | Part.extent p == Part.FloorOfCarving ->
+      rest {Equidistant.restMaterial = Within (fmap (Transformation.segment shrunk) boundary)}
+  _ -> rest
+  where
+    shrunk =
+      Transformation.scaling
+        (over (Part.radius (Part.wall p)) (reach pass))
+        (Equidistant.cutterCentre rest)
 
 -- | The rest material of a pass, with the number of the pass's statement. @islands@ is empty for a
 -- pass along a contour. @word@ is the region of the statement's first word.

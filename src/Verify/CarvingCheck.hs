@@ -10,7 +10,7 @@ module Verify.CarvingCheck
   )
 where
 
-import Base.Quantity (Mm (..), Rad (..))
+import Base.Quantity (Mm (..), Rad (..), plus)
 import Base.Region (Located (..), Region)
 import Data.IntMap.Strict qualified as IntMap
 import Data.List (foldl')
@@ -230,7 +230,9 @@ overlap (path, r0, r1) edge = case path of
 sampleStep :: Mm
 sampleStep = Mm 0.5
 
--- | Points of the edges at which the largest disc that the tool can cut there is not cut.
+-- | Points of the edges at which the largest disc that the tool can cut there is not cut, nor a
+-- larger one that reaches the point. A larger one is cut where an edge bends sharply: there the
+-- largest disc depends on changes of the contour that are far below the tolerance.
 uncarved :: Carved -> [CutterMotion] -> [Point]
 uncarved carved ms =
   [ p
@@ -240,7 +242,8 @@ uncarved carved ms =
       let p = Segment.at u s
           (centre, r) = largest carved area p (Vec.left (Segment.directionAt u s)),
       r >= tip,
-      not (any (isCut centre r) (near centre))
+      not (any (isCut centre r) (near (Mm slack) centre)),
+      not (any (isReached p r) (near (plus (Part.carvingReach (carving carved)) (Mm slack)) p))
   ]
   where
     sampled s =
@@ -251,14 +254,24 @@ uncarved carved ms =
     Mm tip = Part.carvingTip (carving carved)
     index = BoxTree.index Motion.box ms
     slack = 2 * allowed carved
-    near p = BoxTree.within (BoundingBox.inflate (Mm slack) (BoundingBox.ofPoints p [])) index
-    isCut centre r m = any (isAlong centre r m) (Motion.pathList m)
-    isAlong centre r m path =
+    near far p = BoxTree.within (BoundingBox.inflate far (BoundingBox.ofPoints p [])) index
+    isCut centre r m = any (isAlong centre r (radii m)) (Motion.pathList m)
+    isAlong centre r (r0, r1) path =
       let t = Distance.nearestFraction centre path
-          (from, to) = Motion.heights m
-          (r0, r1) = (radiusAt (carving carved) from, radiusAt (carving carved) to)
           Mm d = Vec.distance centre (Segment.at t path)
        in d + abs (r0 + t * (r1 - r0) - r) <= slack
+    isReached p r m = any (reaches p r (radii m)) (Motion.pathList m)
+    reaches p r (r0, r1) path = case path of
+      Straight _ _ ->
+        let (beyondPoint, q) = overlap (path, r0, r1) (Straight p p)
+            Mm d = Vec.distance q p
+         in beyondPoint >= -slack && beyondPoint + d >= r + 0.5 * slack
+      Arc {} ->
+        let Mm d = Distance.toPoint p path
+         in max r0 r1 - d >= -slack && max r0 r1 >= r + 0.5 * slack
+    radii m =
+      let (from, to) = Motion.heights m
+       in (radiusAt (carving carved) from, radiusAt (carving carved) to)
 
 -- | The largest disc in the area, up to the radius of the cone at the largest depth, that touches
 -- the edge at the point @p@ with the unit normal @n@: its centre and its radius. A disc that is too

@@ -83,8 +83,8 @@ spec = do
                   | Clearing {pocket = Located _ p, cleared} <- Toolpath.blocks path,
                     m <- NonEmpty.toList cleared,
                     snd (Toolpath.heights m) < Mm 0,
-                    (reach, edges) <- [grooveOf path],
-                    let limit = minus (plus reach (Part.radius (Part.wall p))) (Mm 1e-6)
+                    (flank, edges) <- [grooveOf path],
+                    let limit = minus (plus flank (Part.radius (Part.wall p))) (Mm 1e-6)
                 ]
             ]
   where
@@ -102,10 +102,10 @@ spec = do
     vertical f = case increment (Frame.frame f) of
       Pulses3 0 0 z -> z
       _ -> 0
-    -- The reach of the first carving of a path, and its contours.
+    -- The room of the flank of the first carving of a path, and its contours.
     grooveOf path =
       case [c | Carved (Located _ c) _ _ <- Toolpath.blocks path] of
-        c : _ -> (Part.carvingReach c, concatMap edgesOf (NonEmpty.toList (Part.carvedAreas c)))
+        c : _ -> (Part.carvingFlank c, concatMap edgesOf (NonEmpty.toList (Part.carvedAreas c)))
         [] -> (Mm 0, [])
     edgesOf (o, hs) =
       concatMap (NonEmpty.toList . Polyarc.segments . Part.polyarcOf) (o : hs)
@@ -158,20 +158,22 @@ codesOf path program frames =
 
 -- | A program that carves a random area, its toolpath and its planned frames.
 carved :: Gen (Text, Toolpath, FrameProgram)
-carved = carvedAnd ""
+carved = carvedAnd 0 ""
 
 -- | Such a program that clears the floors with a mill.
 floored :: Gen (Text, Toolpath, FrameProgram)
 floored = do
   diameter <- choose (0.5, 4)
-  carvedAnd $
+  tip <- elements [0, 0.4, 1.5]
+  carvedAnd tip $
     "change 2 mill(diameter " <> number diameter <> ")\nrest of groove step "
       <> number (diameter * 0.4)
       <> " { rest allowed }\n"
 
--- | A program that carves a random area, and then has the given statements.
-carvedAnd :: Text -> Gen (Text, Toolpath, FrameProgram)
-carvedAnd more = do
+-- | A program that carves a random area with a tip of some diameter in mm, and then has the given
+-- statements.
+carvedAnd :: Double -> Text -> Gen (Text, Toolpath, FrameProgram)
+carvedAnd tip more = do
   count <- choose (3, 9)
   radii <- vectorOf count (choose (14, 40))
   hole <- elements ["", "circle((0, 0), 3)", "circle((1, 1), 2), slot((-4, -2), (4, -3), 1)"]
@@ -185,7 +187,7 @@ carvedAnd more = do
         Text.unlines
           [ "part p",
             "machine iso6983",
-            "tool 1 vbit(angle " <> number angle <> ", tip 0, diameter 60)",
+            "tool 1 vbit(angle " <> number angle <> ", tip " <> number tip <> ", diameter 60)",
             "feed 300",
             "tolerance 0.02",
             "clearance 2",
@@ -196,11 +198,11 @@ carvedAnd more = do
             "vcarve " <> (if Text.null hole then "area" else "difference(area, holes)")
               <> " as groove { depth "
               <> number deep
-              <> " }",
+              <> (if tip > 0 then " rest allowed }" else " }"),
             more
           ]
   case taped text of
-    Nothing -> carvedAnd more
+    Nothing -> carvedAnd tip more
     Just (path, program) -> pure (text, path, program)
 
 -- | A program that carves two slanted grooves side by side, its toolpath and its planned frames,
