@@ -6,7 +6,7 @@
 #pragma GCC diagnostic ignored "-Wmissing-field-initializers"
 #endif
 
-#define LANGUAGE_VERSION 15
+#define LANGUAGE_VERSION 14
 #define STATE_COUNT 1029
 #define LARGE_STATE_COUNT 154
 #define SYMBOL_COUNT 322
@@ -17,7 +17,7 @@
 #define MAX_ALIAS_SEQUENCE_LENGTH 11
 #define MAX_RESERVED_WORD_SET_SIZE 0
 #define PRODUCTION_ID_COUNT 39
-#define SUPERTYPE_COUNT 4
+#define SUPERTYPE_COUNT 0
 
 enum ts_symbol_identifiers {
   sym_name = 1,
@@ -3562,114 +3562,6 @@ static const TSStateId ts_primary_state_ids[STATE_COUNT] = {
   [1028] = 993,
 };
 
-static const TSSymbol ts_supertype_symbols[SUPERTYPE_COUNT] = {
-  sym__expression,
-  sym__item,
-  sym__setting,
-  sym__statement,
-};
-
-static const TSMapSlice ts_supertype_map_slices[] = {
-  [sym__expression] = {.index = 0, .length = 13},
-  [sym__item] = {.index = 13, .length = 5},
-  [sym__setting] = {.index = 18, .length = 25},
-  [sym__statement] = {.index = 43, .length = 44},
-};
-
-static const TSSymbol ts_supertype_map_entries[] = {
-  [0] =
-    sym_binary,
-    sym_call,
-    sym_comprehension,
-    sym_conditional,
-    sym_constant,
-    sym_group,
-    sym_list,
-    sym_name,
-    sym_not,
-    sym_point,
-    sym_quantity,
-    sym_range,
-    sym_sign,
-  [13] =
-    sym_element,
-    sym_for,
-    sym_for_items,
-    sym_if,
-    sym_if_items,
-  [18] =
-    alias_sym_pause,
-    sym_allowance,
-    sym_angle,
-    sym_approach,
-    sym_chip_break,
-    sym_climb,
-    sym_compensation,
-    sym_conventional,
-    sym_corners,
-    sym_depth,
-    sym_floating,
-    sym_hand,
-    sym_helix,
-    sym_islands,
-    sym_lead,
-    sym_peck,
-    sym_pitch,
-    sym_plunge,
-    sym_ramp,
-    sym_rest,
-    sym_retract,
-    sym_shortest,
-    sym_spiral,
-    sym_start,
-    sym_tabs,
-  [43] =
-    sym_assert,
-    sym_aux,
-    sym_avoid,
-    sym_change,
-    sym_clearance,
-    sym_contour,
-    sym_coolant,
-    sym_curve,
-    sym_drawn_contour,
-    sym_drawn_contours,
-    sym_drill,
-    sym_dwell,
-    sym_engrave,
-    sym_face,
-    sym_feed,
-    sym_for,
-    sym_from,
-    sym_hole,
-    sym_if,
-    sym_import,
-    sym_let,
-    sym_machine,
-    sym_mill,
-    sym_move,
-    sym_optional_stop,
-    sym_param,
-    sym_part,
-    sym_piece,
-    sym_pocket,
-    sym_program_number,
-    sym_program_stop,
-    sym_rapid,
-    sym_rest_of,
-    sym_safe,
-    sym_spindle,
-    sym_stock,
-    sym_table,
-    sym_tolerance,
-    sym_tool,
-    sym_turn,
-    sym_units,
-    sym_vcarve,
-    sym_with,
-    sym_work,
-};
-
 static const TSCharacterRange sym_name_character_set_1[] = {
   {'A', 'Z'}, {'_', '_'}, {'a', 'z'}, {0xaa, 0xaa}, {0xb5, 0xb5}, {0xba, 0xba}, {0xc0, 0xd6}, {0xd8, 0xf6},
   {0xf8, 0x2c1}, {0x2c6, 0x2d1}, {0x2e0, 0x2e4}, {0x2ec, 0x2ec}, {0x2ee, 0x2ee}, {0x370, 0x374}, {0x376, 0x377}, {0x37a, 0x37d},
@@ -6237,7 +6129,7 @@ static bool ts_lex_keywords(TSLexer *lexer, TSStateId state) {
   }
 }
 
-static const TSLexerMode ts_lex_modes[STATE_COUNT] = {
+static const TSLexMode ts_lex_modes[STATE_COUNT] = {
   [0] = {.lex_state = 0, .external_lex_state = 1},
   [1] = {.lex_state = 27},
   [2] = {.lex_state = 27},
@@ -50302,7 +50194,6 @@ TS_PUBLIC const TSLanguage *tree_sitter_part(void) {
     .state_count = STATE_COUNT,
     .large_state_count = LARGE_STATE_COUNT,
     .production_id_count = PRODUCTION_ID_COUNT,
-    .supertype_count = SUPERTYPE_COUNT,
     .field_count = FIELD_COUNT,
     .max_alias_sequence_length = MAX_ALIAS_SEQUENCE_LENGTH,
     .parse_table = &ts_parse_table[0][0],
@@ -50313,9 +50204,6 @@ TS_PUBLIC const TSLanguage *tree_sitter_part(void) {
     .field_names = ts_field_names,
     .field_map_slices = ts_field_map_slices,
     .field_map_entries = ts_field_map_entries,
-    .supertype_map_slices = ts_supertype_map_slices,
-    .supertype_map_entries = ts_supertype_map_entries,
-    .supertype_symbols = ts_supertype_symbols,
     .symbol_metadata = ts_symbol_metadata,
     .public_symbol_map = ts_symbol_map,
     .alias_map = ts_non_terminal_alias_map,
@@ -50334,13 +50222,6 @@ TS_PUBLIC const TSLanguage *tree_sitter_part(void) {
       tree_sitter_part_external_scanner_deserialize,
     },
     .primary_state_ids = ts_primary_state_ids,
-    .name = "part",
-    .max_reserved_word_set_size = 0,
-    .metadata = {
-      .major_version = 0,
-      .minor_version = 1,
-      .patch_version = 0,
-    },
   };
   return &language;
 }
