@@ -299,7 +299,7 @@ module.exports = grammar({
       field('file', $.text),
       optional(seq(choice('layer', 'id', 'class'), $.text)),
       optional(seq('unit', choice('mm', 'in'))),
-      optional(seq('within', $.number)),
+      optional(seq('within', $.quantity)),
     )),
     items: $ => seq('{', repeat($._item), '}'),
     _item: $ => choice(alias($.for_items, $.for), alias($.if_items, $.if), $.element),
