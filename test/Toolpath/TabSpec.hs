@@ -32,13 +32,13 @@ spec = do
             [ counterexample (show (t, k, z, away)) $
                 if away <= flat - slack
                   then abs (z - (bottom + tall t)) <= 1e-6
-                  else away < flat + slope t + slack || abs (z - bottom) <= 1e-6
+                  else away < flatEnd t flat + slope t + slack || abs (z - bottom) <= 1e-6
               | m <- cut,
                 k <- [0, 0.1 .. 1],
                 let p = Segment.at k (Toolpath.segment m)
                     z = heightAt k m
                     away = minimum (map (distance p) places)
-                    -- The distance in the plane of a place on the flat of a tab.
+                    -- Half of the distance in the plane of the ends of the flat of a tab.
                     flat = (width t + cutter t) / 2
             ],
           counterexample "the count" (length places === count t)
@@ -77,6 +77,13 @@ spec = do
   where
     slack = 1e-6
     slope t = tall t / tan (angle t)
+    -- The distance of an end of the flat from its middle, which on a circle is not on the line
+    -- from end to end.
+    flatEnd t flat
+      | isRectangle t = flat
+      | otherwise = 2 * r * sin (asin (flat / r) / 2)
+      where
+        r = (fst (size t) + (if isInside t then -1 else 1) * cutter t) / 2
     heightAt k m = let (Mm a, Mm b) = Toolpath.heights m in a + k * (b - a)
     distance p q = let Mm d = Vec.distance p q in d
     lengthOf s = let Mm l = Segment.length s in l
