@@ -13,6 +13,7 @@ import Data.Map.Strict qualified as Map
 import Data.Text (Text)
 import Data.Text qualified as Text
 import Files (readText)
+import Font.TrueType qualified as TrueType
 import Machine.Error qualified as Machine
 import Machine.FromText qualified as Machine
 import Project.LoadedProgram qualified as LoadedProgram
@@ -126,6 +127,8 @@ checked file text = case takeExtension file of
     reader =
       (Import.byName (read' readText))
         { Import.bytes = read' ByteString.readFile,
+          Import.glyphs = \font written ->
+            read' ByteString.readFile font >>= traverse (`TrueType.glyphs` written),
           Import.listing = listDirectory
         }
     read' :: (FilePath -> IO a) -> FilePath -> IO (Either Text a)

@@ -95,8 +95,8 @@ sanctioned =
     [ ("Base.Crash", ["Control.Exception"]),
       -- the type of the errors that the parser of XML gives as a value
       ("Drawing.XmlElement", ["Control.Exception"]),
-      -- the call of FreeType, whose result depends on its arguments only
-      ("Font.TrueType", ["Foreign", "Foreign.C.Types", "System.IO.Unsafe"]),
+      -- the call of FreeType, which runs in IO
+      ("Font.TrueType", ["Foreign", "Foreign.C.Types"]),
       ( "Preview.Server",
         [ "Control.Concurrent",
           "Control.Concurrent.MVar",

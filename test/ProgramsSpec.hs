@@ -18,6 +18,7 @@ import Data.Maybe (fromMaybe)
 import Data.Text (Text)
 import Data.Text qualified as Text
 import Files (expected, filesBelow, readText)
+import Font.TrueType qualified as TrueType
 import Machines qualified
 import Project.Job (Job)
 import Project.LoadedProgram (LoadedProgram)
@@ -127,6 +128,8 @@ loadedFrom file = do
     reader =
       (Import.byName (beside readText))
         { Import.bytes = beside ByteString.readFile,
+          Import.glyphs = \font text ->
+            beside ByteString.readFile font >>= traverse (`TrueType.glyphs` text),
           Import.listing = listDirectory . (takeDirectory file </>)
         }
     beside :: (FilePath -> IO a) -> FilePath -> IO (Either Text a)

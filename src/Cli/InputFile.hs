@@ -31,6 +31,7 @@ import Data.Maybe (fromMaybe)
 import Data.Text (Text)
 import Data.Text qualified as Text
 import Data.Text.Encoding qualified as Encoding
+import Font.TrueType qualified as TrueType
 import Project.LoadedProgram (LoadedProgram)
 import Project.LoadedProgram qualified as LoadedProgram
 import Project.MachineDescription (Descriptions)
@@ -94,9 +95,10 @@ ownFiles file input = file : imported <> concatMap asWritten described
 -- canonical paths, so a file with two paths is imported only once.
 readerFrom :: (FilePath -> IO (Either Text Text)) -> Import.Reader IO
 readerFrom contents =
-  Import.Reader {Import.contents, Import.bytes, Import.identity, Import.listing}
+  Import.Reader {Import.contents, Import.bytes, Import.glyphs, Import.identity, Import.listing}
   where
     bytes path = either (Left . Cli.reason) Right <$> readBytes path
+    glyphs path text = bytes path >>= traverse (`TrueType.glyphs` text)
 
 -- | The names of the files in a folder; none if it cannot be read.
 listing :: FilePath -> IO [FilePath]

@@ -3,9 +3,9 @@
 -- | The glyphs of a text from the bytes of a TrueType or OpenType font, in the units of the font
 -- and without hints. The library FreeType reads them, by the foreign call in @truetype.c@.
 --
--- The call reads no file, no setting and no clock, and keeps nothing. Its result depends on the
--- bytes and the text only, so 'glyphs' is a pure function, by 'unsafePerformIO'. It has to be one:
--- an import also runs without IO, on the texts that an editor holds ("Query.Snapshot").
+-- The call is in IO. A program is loaded through a "Surface.Import" reader, which asks for the
+-- glyphs; those that it has got are kept with the program, so that an editor can load another text
+-- of it without IO.
 module Font.TrueType
   ( GlyphRun (..),
     Glyph (..),
@@ -40,7 +40,6 @@ import Foreign
 import Foreign.C.Types (CChar, CInt (..), CSize (..))
 import Geometry.Vec (Point)
 import Geometry.Vec qualified as Vec
-import System.IO.Unsafe (unsafePerformIO)
 
 -- | The glyphs of a text. All lengths are in units of the font.
 data GlyphRun = GlyphRun
@@ -101,11 +100,11 @@ foreign import ccall safe "partc_font_text"
     Ptr CChar -> CSize -> Ptr Word32 -> CSize -> Ptr (Ptr Int32) -> Ptr CSize -> IO CInt
 
 -- | The glyphs of the characters of a text.
-glyphs :: ByteString -> Text -> Either FontFault GlyphRun
+glyphs :: ByteString -> Text -> IO (Either FontFault GlyphRun)
 glyphs font text
-  | ByteString.length font > mostBytes || Text.length text > mostCharacters = Left TooMuch
-  | ByteString.take 4 font `notElem` beginnings = Left NoFont
-  | otherwise = unsafePerformIO (decoded <$> numbersOf font text)
+  | ByteString.length font > mostBytes || Text.length text > mostCharacters = pure (Left TooMuch)
+  | ByteString.take 4 font `notElem` beginnings = pure (Left NoFont)
+  | otherwise = decoded <$> numbersOf font text
   where
     -- The first bytes of TrueType, of OpenType with cubic curves, of TrueType by Apple, and of
     -- several fonts in one file.

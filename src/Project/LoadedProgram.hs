@@ -19,6 +19,7 @@ import Base.Region qualified as Region
 import Base.Result (Result (..), mapErrors)
 import Data.Containers.ListUtils (nubOrd)
 import Data.Functor.Identity (runIdentity)
+import Data.Map.Strict qualified as Map
 import Data.Text (Text)
 import Data.Text qualified as Text
 import Project.MachineDescription (Descriptions)
@@ -44,6 +45,8 @@ data LoadedProgram = LoadedProgram
     isSheet :: Bool,
     -- | the regions of the names of imports and of table files, with the paths of these files
     imports :: [(Region, Text)],
+    -- | the glyphs of the texts in fonts
+    glyphRuns :: Surface.GlyphRuns,
     -- | the machine descriptions that the program names
     descriptions :: Descriptions,
     -- | the paths of the imports, the table files and the machine descriptions
@@ -79,6 +82,7 @@ load reader path text
           surface = mapErrors Surface.toReport Surface.toReport (Surface.surface loaded),
           isSheet = False,
           imports = Surface.imports loaded,
+          glyphRuns = Surface.glyphRuns loaded,
           descriptions,
           files = map snd (Surface.imports loaded) <> paths,
           identities
@@ -92,6 +96,7 @@ fromInputSheet path text =
       surface = Sheet.program <$> mapErrors id Sheet.toReport (Sheet.read text),
       isSheet = True,
       imports = [],
+      glyphRuns = Map.empty,
       descriptions = [],
       files = [],
       identities = [(Text.pack path, Text.pack path)]

@@ -94,6 +94,8 @@ data Snapshot = Snapshot
     -- | the file names in imports and table statements: the region of each name, and the path of
     -- the file
     imports :: [(Region, Text)],
+    -- | the glyphs of the texts in fonts
+    glyphRuns :: Import.GlyphRuns,
     -- | the statements that come from imported files
     imported :: [Statement],
     -- | the paths of all files on which the results depend, apart from the program's own
@@ -119,6 +121,7 @@ unanalysed source =
       program = FileUnit.program 0 [] [],
       facts = Mention.none,
       imports = [],
+      glyphRuns = Map.empty,
       imported = [],
       dependencies = [],
       identities = [(Region.mainFile source, Region.mainFile source)],
@@ -146,6 +149,7 @@ inStages check loaded = (early, complete)
           program = written {statements = own},
           facts = Mention.facts (first Checked.mentions <$> output evaluated),
           imports = LoadedProgram.imports loaded,
+          glyphRuns = LoadedProgram.glyphRuns loaded,
           imported,
           dependencies = LoadedProgram.files loaded,
           identities = LoadedProgram.identities loaded,
@@ -235,14 +239,15 @@ loadedWith now changed path text =
         { Import.contents = Identity . textAt,
           -- The texts of drawings have a character for each byte.
           Import.bytes = Identity . fmap (Char8.pack . Text.unpack) . textAt,
-          Import.identity = Identity . Text.unpack . identityOf now . Text.pack,
+          Import.glyphs = \file -> Identity . glyphsAt file,
+          Import.identity = Identity . Text.unpack . fileOf,
           Import.listing = const (Identity [])
         }
-    textAt file =
-      maybe
-        (Left "it is not part of the program")
-        Right
-        (Map.lookup (identityOf now (Text.pack file)) texts)
+    fileOf = identityOf now . Text.pack
+    textAt file = known (Map.lookup (fileOf file) texts)
+    glyphsAt file written = known (Map.lookup (fileOf file, written) runs)
+    runs = Map.mapKeys (first fileOf) (glyphRuns now)
+    known = maybe (Left "it is not part of the program") Right
     -- The first of several texts with the same identity counts.
     texts =
       Map.fromListWith

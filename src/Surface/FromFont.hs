@@ -8,7 +8,6 @@ where
 import Base.Name (Name (..))
 import Base.Region (Located (..), Region (Region))
 import Base.Region qualified as Region
-import Data.ByteString (ByteString)
 import Data.List (nub)
 import Data.List.NonEmpty qualified as NonEmpty
 import Data.Maybe (catMaybes, fromMaybe)
@@ -22,7 +21,7 @@ import Drawing.Outline (DrawnPart (..), Outline (..))
 import Drawing.PathPart qualified as PathPart
 import Font.TextOutline (TextOutline (..))
 import Font.TextOutline qualified as TextOutline
-import Font.TrueType (Glyph, GlyphRun (..))
+import Font.TrueType (FontFault, Glyph, GlyphRun (..))
 import Font.TrueType qualified as TrueType
 import Geometry.Polyarc (Ends (Closed))
 import Geometry.Vec (Point)
@@ -35,20 +34,20 @@ import Surface.Syntax qualified as Surface
 import Surface.TextPlace qualified as TextPlace
 
 -- | The statements in place of a text in a font, or its mistakes. @at@ is the region of the
--- statement, @file@ the name of the font, and @content@ the bytes of its file.
+-- statement, @file@ the name of the font, and @answer@ its glyphs of the text, or their fault.
 statements ::
   Region ->
   Located Name ->
   Located Text ->
   Lettering ->
-  ByteString ->
+  Either FontFault GlyphRun ->
   Either [FontMistake] [Statement]
-statements at name file@(Located fileAt fileName) text content
+statements at name file@(Located fileAt fileName) text answer
   | Around circle _ <- course text = Left [RoundCircle (region circle)]
   | Text.length (value (lettered text)) > TrueType.mostCharacters =
     Left [LongText (region (lettered text)) (Text.length (value (lettered text)))]
   | otherwise = do
-    run <- either (Left . pure . BadFont fileAt fileName) Right (glyphsOf (lettered text))
+    run <- either (Left . pure . BadFont fileAt fileName) Right answer
     glyphs <- complete file (lettered text) run
     height <- maybe (Left [NoCapitals fileAt fileName]) Right (capitalHeight run)
     let outlines = TextOutline.outlines height TextPlace.capitals (share text) glyphs
@@ -61,7 +60,6 @@ statements at name file@(Located fileAt fileName) text content
             FromDrawing.asRegion at name (contourOf at (value name) regionOf) found
           )
   where
-    glyphsOf (Located _ written) = TrueType.glyphs content written
     regionOf = characterRegion (lettered text) . Drawing.line
     crossing (Crossing a b _) = CrossingGlyphs (regionOf a) (regionOf b)
 

@@ -6,6 +6,7 @@
 module Surface.Import
   ( Reader (..),
     byName,
+    GlyphRuns,
     ImportedProgram (..),
     load,
   )
@@ -29,6 +30,7 @@ import Data.Text qualified as Text
 import Data.Text.Encoding qualified as Encoding
 import Drawing.Drawing (Entity)
 import Drawing.FileFormat qualified as FileFormat
+import Font.TrueType (FontFault, GlyphRun)
 import Surface.Csv qualified as Csv
 import Surface.DrawingError (DrawingMistake (InFont))
 import Surface.Error (Error (..))
@@ -40,7 +42,7 @@ import Surface.FromFont qualified as FromFont
 import Surface.Parser qualified as Parser
 import Surface.Syntax
   ( DrawingReference (..),
-    Lettering,
+    Lettering (lettered),
     Lines (..),
     Program (..),
     Statement,
@@ -65,19 +67,25 @@ data Reader m = Reader
     contents :: FilePath -> m (Either Text Text),
     -- | the bytes of a file, or the reason why it cannot be read
     bytes :: FilePath -> m (Either Text ByteString),
+    -- | the glyphs of a text in a font file, or the reason why the file cannot be read
+    glyphs :: FilePath -> Text -> m (Either Text (Either FontFault GlyphRun)),
     -- | the identity of a file: the same result for all paths that lead to the same file
     identity :: FilePath -> m FilePath,
     -- | the names of the files in a folder; none if they are not known
     listing :: FilePath -> m [FilePath]
   }
 
--- | A reader that treats files with different paths as different files, and knows no folders. The
--- bytes of a file are its text in UTF-8.
+-- | The glyphs of texts, by the paths of their fonts and the texts.
+type GlyphRuns = Map (FilePath, Text) (Either FontFault GlyphRun)
+
+-- | A reader that treats files with different paths as different files, and knows no folders and no
+-- fonts. The bytes of a file are its text in UTF-8.
 byName :: Monad m => (FilePath -> m (Either Text Text)) -> Reader m
 byName contents =
   Reader
     { contents,
       bytes = fmap (fmap Encoding.encodeUtf8) . contents,
+      glyphs = \_ _ -> pure (Left "fonts are not read here"),
       identity = pure,
       listing = const (pure [])
     }
@@ -89,7 +97,9 @@ data ImportedProgram = ImportedProgram
     -- | the program with its imports replaced
     surface :: Result Error Error Program,
     -- | the regions of the names of imported files and table files, with the paths of these files
-    imports :: [(Region, Text)]
+    imports :: [(Region, Text)],
+    -- | the glyphs of the texts in fonts
+    glyphRuns :: GlyphRuns
   }
 
 -- | The results so far, while files are being read.
@@ -105,8 +115,8 @@ data Progress = Progress
     -- | the drawings read so far, by their paths and the units that statements give them; Nothing
     -- for one with a mistake
     drawings :: Map (FilePath, Maybe LengthUnit) (Maybe DrawingText),
-    -- | the bytes of the fonts read so far, by their paths
-    fonts :: Map FilePath ByteString,
+    -- | the glyphs of the texts in fonts so far
+    runs :: GlyphRuns,
     -- | the regions of the names of imported files and table files, with the paths of these files,
     -- the newest first
     named :: [(Region, Text)],
@@ -127,13 +137,19 @@ load reader path text = do
             found = [],
             noted = [],
             drawings = Map.empty,
-            fonts = Map.empty,
+            runs = Map.empty,
             named = [],
             unitsFound = Map.empty
           }
   case output of
     Nothing ->
-      pure ImportedProgram {source = texts begin, surface = Result [] errors Nothing, imports = []}
+      pure
+        ImportedProgram
+          { source = texts begin,
+            surface = Result [] errors Nothing,
+            imports = [],
+            glyphRuns = Map.empty
+          }
     Just whole -> do
       let chain =
             Chain {open = [(itself, simplified path)], file = path, unitAt = FileUnit.unitAt whole}
@@ -147,7 +163,8 @@ load reader path text = do
                 (reverse (noted progress))
                 (errors <> FileUnit.misplaced (statements whole) <> reverse (found progress))
                 (Just whole {statements = statements', units = units whole <> unitsFound progress}),
-            imports = reverse (named progress)
+            imports = reverse (named progress),
+            glyphRuns = runs progress
           }
 
 -- | The file whose statements are being read, and the files through which the program imports it.
@@ -223,33 +240,22 @@ fromFont ::
   StateT Progress m (Maybe [Statement])
 fromFont reader chain region name font@(Located at file) text = do
   path <- namedPath chain at file
-  content <- if FileFormat.isFont file then Just <$> fontBytes reader path else pure Nothing
-  case content of
+  answer <-
+    if FileFormat.isFont file
+      then Just <$> lift (glyphs reader path (value (lettered text)))
+      else pure Nothing
+  case answer of
     Nothing -> mistakes' [NotAFont at file]
     Just (Left reason) -> do
       near <- lift (neighbour reader path file [".ttf", ".otf", ".ttc"] [])
       Nothing <$ modify' (\p -> p {found = FileMissing at "font" file reason near : found p})
-    Just (Right content') -> case FromFont.statements region name font text content' of
-      Left faults -> mistakes' faults
-      Right made -> pure (Just made)
+    Just (Right run) -> do
+      modify' (\p -> p {runs = Map.insert (path, value (lettered text)) run (runs p)})
+      case FromFont.statements region name font text run of
+        Left faults -> mistakes' faults
+        Right made -> pure (Just made)
   where
     mistakes' faults = recorded (Converted (map InFont faults) [] Nothing)
-
--- | The bytes of a font, or the reason why it cannot be read. A font that is read becomes a text of
--- the source, so that an editor can load the program again.
-fontBytes :: Monad m => Reader m -> FilePath -> StateT Progress m (Either Text ByteString)
-fontBytes reader path = do
-  known <- gets (Map.lookup path . fonts)
-  content <- maybe (lift (bytes reader path)) (pure . Right) known
-  case (known, content) of
-    (Nothing, Right content') ->
-      modify' $ \p ->
-        p
-          { texts = Region.addFile (Text.pack path) (Encoding.decodeLatin1 content') (texts p),
-            fonts = Map.insert path content' (fonts p)
-          }
-    _ -> pure ()
-  pure content
 
 -- | Result of @make@ for a part of a drawing, from the drawing, the region of the name of its
 -- file, the distance of ends that are joined, and the chosen entities. Records mistakes and

@@ -49,7 +49,7 @@ spec = do
     forM_ [("quadratic.ttf", 700), ("cubic.otf", 700)] $ \(file, capitals) ->
       it (file <> " has its height, its widths and its kerning") $ do
         font <- ByteString.readFile (fonts </> file)
-        let Right run = glyphs font "AV HOж"
+        Right run <- glyphs font "AV HOж"
         capitalHeight run `shouldBe` Just capitals
         map (fmap advance) (characterGlyphs run)
           `shouldBe` [Just 600, Just 600, Just 350, Just 600, Just 640, Nothing]
@@ -57,8 +57,8 @@ spec = do
           `shouldBe` [Just (-90), Just 0, Just 0, Just 15, Just 0, Nothing]
     it "the middle between two control points is not rounded" $ do
       font <- ByteString.readFile (fonts </> "quadratic.ttf")
-      let Right run = glyphs font "O"
-          contours = [c | Just g <- characterGlyphs run, c <- glyphContours g]
+      Right run <- glyphs font "O"
+      let contours = [c | Just g <- characterGlyphs run, c <- glyphContours g]
           ends = [q | GlyphContour _ cs <- contours, QuadraticTo _ q <- cs]
       ends `shouldContain` [Vec.point 510.5 604]
     it "contours that enclose nothing and curves without a length are left out" $ do
@@ -67,14 +67,15 @@ spec = do
     it "every beginning of a font gives glyphs or a fault" $
       forM_ ["quadratic.ttf", "cubic.otf"] $ \file -> do
         font <- ByteString.readFile (fonts </> file)
-        let answers = [glyphs (ByteString.take n font) "AVO@" | n <- [0 .. ByteString.length font]]
+        answers <-
+          mapM (\n -> glyphs (ByteString.take n font) "AVO@") [0 .. ByteString.length font]
         length (filter isLeft answers) `shouldSatisfy` (> 100)
         sum (map sizeOf answers) `shouldSatisfy` (> 0)
     it "a file that is no font, and a text that is too long, are refused" $ do
       font <- ByteString.readFile (fonts </> "cubic.otf")
-      glyphs "%PDF-1.4" "A" `shouldBe` Left NoFont
-      glyphs (font <> ByteString.replicate mostBytes 0) "A" `shouldBe` Left TooMuch
-      glyphs font (Text.replicate (mostCharacters + 1) "A") `shouldBe` Left TooMuch
+      glyphs "%PDF-1.4" "A" `shouldReturn` Left NoFont
+      glyphs (font <> ByteString.replicate mostBytes 0) "A" `shouldReturn` Left TooMuch
+      glyphs font (Text.replicate (mostCharacters + 1) "A") `shouldReturn` Left TooMuch
   describe "fontTools agrees about every point" $ do
     forM_ ["quadratic.ttf", "cubic.otf"] $ \file ->
       it file (judged (fonts </> file) "AVAHOC+@NФ X8I HO")
@@ -99,19 +100,21 @@ fonts = "test/data/fonts"
 -- | Outlines of a text in a font of the tests, for a height of the capitals in mm.
 outlinesIn :: FilePath -> Double -> Double -> Text -> IO (Either FontFault [TextOutline])
 outlinesIn file size share text =
-  outlinesOf size share text <$> ByteString.readFile (fonts </> file)
+  outlinesOf size share text =<< ByteString.readFile (fonts </> file)
 
-outlinesOf :: Double -> Double -> Text -> ByteString -> Either FontFault [TextOutline]
-outlinesOf size share text font = do
-  run <- glyphs font text
-  let height = fromMaybe 0 (capitalHeight run)
-  pure (TextOutline.outlines height (Mm size) share (catMaybes (characterGlyphs run)))
+outlinesOf :: Double -> Double -> Text -> ByteString -> IO (Either FontFault [TextOutline])
+outlinesOf size share text font = fmap outlinesFrom <$> glyphs font text
+  where
+    outlinesFrom run =
+      let height = fromMaybe 0 (capitalHeight run)
+       in TextOutline.outlines height (Mm size) share (catMaybes (characterGlyphs run))
 
 -- | The expectation that fontTools gives the same points for a text in a font.
 judged :: FilePath -> Text -> Expectation
 judged file text = do
   font <- ByteString.readFile file
-  case outlinesOf 8 0.5 text font of
+  answer <- outlinesOf 8 0.5 text font
+  case answer of
     Left fault -> expectationFailure (show fault)
     Right outlines -> withSystemTempDirectory "partc" $ \folder -> do
       whole <- makeAbsolute file

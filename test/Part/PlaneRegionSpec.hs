@@ -60,7 +60,8 @@ inClusters operation = hush . combined operation . traverse (combined Union . tr
     disc = PlaneRegion.inside . RegionBuiltin.contourOfCircle at
     hush = either (const Nothing) Just
 
--- | The same by one arrangement for each operation.
+-- | The loops of an operation on unions of circles, which a single arrangement gives for each of
+-- the unions and for the operation.
 atOnce :: BooleanOperation -> [[Circle]] -> Maybe [NonEmpty ResultSegment]
 atOnce operation circles = either (const Nothing) Just $ do
   unions <- traverse (RegionBoolean.combine Union . map disc) circles

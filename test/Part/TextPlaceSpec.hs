@@ -10,7 +10,6 @@ import Compile (Analysis (Analysis, part))
 import Compile qualified
 import Data.ByteString (ByteString)
 import Data.ByteString qualified as ByteString
-import Data.Functor.Identity (runIdentity)
 import Data.List.NonEmpty qualified as NonEmpty
 import Data.Maybe (catMaybes)
 import Data.Text (Text)
@@ -41,14 +40,15 @@ spec = modifyMaxSuccess (const 60) $ do
         forAll ((,) <$> hundredths (-50) 50 <*> hundredths (-50) 50) $ \p ->
           forAll (elements [("", 0), ("align centre", 0.5), ("align right", 1)]) $ \(word, share) ->
             let statement = statementOf text size turned p word
-                outcome = Compile.analyse [] (loaded font statement)
-                expected = placed font text size turned p share
-             in counterexample (Text.unpack statement) $ case Result.ifSound outcome of
-                  Just Analysis {part} ->
-                    conjoin
-                      [counterexample (show q) (any (isNear q) (startsIn part)) | q <- expected]
-                  Nothing ->
-                    counterexample (show (map Report.title (Result.errors outcome))) False
+             in counterexample (Text.unpack statement) . ioProperty $ do
+                  outcome <- Compile.analyse [] <$> loaded font statement
+                  expected <- placed font text size turned p share
+                  pure $ case Result.ifSound outcome of
+                    Just Analysis {part} ->
+                      conjoin
+                        [counterexample (show q) (any (isNear q) (startsIn part)) | q <- expected]
+                    Nothing ->
+                      counterexample (show (map Report.title (Result.errors outcome))) False
   where
     hundredths :: Int -> Int -> Gen Double
     hundredths low high = (/ 100) . fromIntegral <$> chooseInt (100 * low, 100 * high)
@@ -67,14 +67,14 @@ statementOf text size turned (x, y) word =
     number = Decimal.short 2
 
 -- | The points at which parts of the outlines of a text begin.
-placed :: ByteString -> Text -> Double -> Double -> (Double, Double) -> Double -> [Point]
-placed font text size turned (x, y) share = case TrueType.glyphs font text of
-  Left _ -> []
-  Right run ->
-    [ Vec.shift (Vec.rotate (Rad (turned * pi / 180)) (Vec.to (Vec.point 0 0) q)) (Vec.point x y)
-      | o <- TextOutline.outlines 700 (Mm size) share (catMaybes (characterGlyphs run)),
-        q <- map PathPart.start (NonEmpty.toList (path o))
-    ]
+placed :: ByteString -> Text -> Double -> Double -> (Double, Double) -> Double -> IO [Point]
+placed font text size turned (x, y) share = either (const []) starts <$> TrueType.glyphs font text
+  where
+    starts run =
+      [ Vec.shift (Vec.rotate (Rad (turned * pi / 180)) (Vec.to (Vec.point 0 0) q)) (Vec.point x y)
+        | o <- TextOutline.outlines 700 (Mm size) share (catMaybes (characterGlyphs run)),
+          q <- map PathPart.start (NonEmpty.toList (path o))
+      ]
 
 -- | The points at which the segments of the contours of the text begin.
 startsIn :: Part.Part -> [Point]
@@ -87,12 +87,12 @@ startsIn part =
   ]
 
 -- | A program with a statement, beside a font.
-loaded :: ByteString -> Text -> LoadedProgram
-loaded font statement = runIdentity (LoadedProgram.load reader "t.part" whole)
+loaded :: ByteString -> Text -> IO LoadedProgram
+loaded font statement = LoadedProgram.load reader "t.part" whole
   where
     reader =
       (Import.byName (const (pure (Left "it imports nothing"))))
-        { Import.bytes = const (pure (Right font))
+        { Import.glyphs = \_ text -> Right <$> TrueType.glyphs font text
         }
     whole =
       Text.unlines

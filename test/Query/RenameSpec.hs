@@ -6,6 +6,7 @@ import Base.Region qualified as Region
 import Base.Result (Result (..))
 import Compile qualified
 import Control.Monad (forM_)
+import Data.ByteString qualified as ByteString
 import Data.Either (isLeft)
 import Data.Functor.Identity (runIdentity)
 import Data.List (find, sort)
@@ -14,6 +15,7 @@ import Data.Maybe (fromMaybe)
 import Data.Text (Text)
 import Data.Text qualified as Text
 import Files (filesBelow, readText)
+import Font.TrueType qualified as TrueType
 import Frame.Frame (Frame)
 import Frame.Frame qualified as Frame
 import Project.Job qualified as Job
@@ -112,9 +114,10 @@ spec = do
           [ ("a.part", Text.replace "mill k" "mill q" milling),
             ("k.part", Text.replace "r k" "r q" (Text.replace "mill k" "mill q" machined))
           ]
-  describe "renaming in the examples" $ do
+  describe "renaming in the examples, and in a program with letters of a font" $ do
     files <- runIO (sort . filter ((== ".part") . takeExtension) <$> filesBelow "examples")
-    forM_ files $ \file ->
+    -- The glyphs of the last one come from the snapshot, which reads no font.
+    forM_ (files <> ["test/programs/font/good/areas.part"]) $ \file ->
       it ("keeps the frames of " <> file <> ", and back again its text") $ do
         snapshot <- loaded file
         let offsets = renamable snapshot
@@ -134,7 +137,11 @@ loaded file = do
   text <- readText file
   Snapshot.take (Snapshot.checkWith []) <$> LoadedProgram.load reader file text
   where
-    reader = Import.byName (fmap Right . readText)
+    reader =
+      (Import.byName (fmap Right . readText))
+        { Import.glyphs = \font written ->
+            Right <$> (ByteString.readFile font >>= (`TrueType.glyphs` written))
+        }
 
 -- | One offset for each name of the program's own text that can be renamed.
 renamable :: Snapshot -> [Int]

@@ -160,7 +160,8 @@ codesOf path program frames =
 carved :: Gen (Text, Toolpath, FrameProgram)
 carved = carvedAnd 0 ""
 
--- | Such a program that clears the floors with a mill.
+-- | A program that carves a random area and clears the floors with a mill, its toolpath and its
+-- planned frames.
 floored :: Gen (Text, Toolpath, FrameProgram)
 floored = do
   diameter <- choose (0.5, 4)

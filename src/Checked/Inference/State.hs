@@ -52,6 +52,7 @@ where
 import Base.Name (Name (Name))
 import Base.Name qualified as Name
 import Base.Region (Located (..), Region)
+import Base.Region qualified as Region
 import Checked.Dimension (Dimension)
 import Checked.Dimension qualified as Dimension
 import Checked.Error (Error (..))
@@ -231,11 +232,15 @@ withLocals locals infer = scoped (mapM_ defineLocal locals *> infer)
       define name (Local at t) *> mention at (Just at) (Name.text name) (Valued t)
 
 -- | Records a mention of the name @word@ at @region@, for editors. @definition@ is the region of
--- its definition, or 'Nothing' for a built-in name. Hidden names are not recorded.
+-- its definition, or 'Nothing' for a built-in name. Names that the program does not write there are
+-- not recorded: hidden ones, and functions in the place of a drawing or of a text in a font.
 mention :: Region -> Maybe Region -> Text -> Meaning -> Infer ()
 mention region definition word meaning =
-  unless (Name.isHidden (Name word)) . modify' $
+  when isWritten . modify' $
     (\s -> s {mentioned = (region, definition, word, meaning) : mentioned s})
+  where
+    isWritten =
+      not (Name.isHidden (Name word)) && Region.end region - Region.start region == Text.length word
 
 -- Unknowns
 
