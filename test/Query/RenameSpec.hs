@@ -114,10 +114,11 @@ spec = do
           [ ("a.part", Text.replace "mill k" "mill q" milling),
             ("k.part", Text.replace "r k" "r q" (Text.replace "mill k" "mill q" machined))
           ]
-  describe "renaming in the examples, and in a program with letters of a font" $ do
+  describe "renaming in the examples, with a drawing and with letters of a font" $ do
     files <- runIO (sort . filter ((== ".part") . takeExtension) <$> filesBelow "examples")
-    -- The glyphs of the last one come from the snapshot, which reads no font.
-    forM_ (files <> ["test/programs/font/good/areas.part"]) $ \file ->
+    -- The glyphs of the last program come from the snapshot, which reads no font.
+    let others = ["test/programs/drawing/good/path.part", "test/programs/font/good/areas.part"]
+    forM_ (files <> others) $ \file ->
       it ("keeps the frames of " <> file <> ", and back again its text") $ do
         snapshot <- loaded file
         let offsets = renamable snapshot
