@@ -9,6 +9,7 @@
 module Geometry.Tolerance
   ( -- * Points and numbers
     coincident,
+    sameCopy,
     equal,
     reach,
     negligibleShare,
@@ -53,6 +54,12 @@ import Base.Quantity (Mm (..), Rad (..))
 -- lose half of the digits.
 coincident :: Mm
 coincident = Mm 1e-6
+
+-- | The resolution at which contours are compared that may be translated copies of each other.
+-- Sweeps of arcs are compared at as many radians. Rounding changes a coordinate by much less, also
+-- the centre of a flat arc.
+sameCopy :: Mm
+sameCopy = Mm 1e-8
 
 -- | The largest difference of numbers that count as equal, in the unit of the numbers: mm, radians,
 -- minutes or none.

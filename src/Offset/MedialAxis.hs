@@ -15,6 +15,7 @@ module Offset.MedialAxis
     branches,
     firstDisc,
     lastDisc,
+    moved,
   )
 where
 
@@ -33,6 +34,7 @@ import Geometry.Index.BoxTree qualified as BoxTree
 import Geometry.Polyarc (Polyarc (..))
 import Geometry.Segment (Segment (..))
 import Geometry.Segment qualified as Segment
+import Geometry.Transformation qualified as Transformation
 import Geometry.Vec (Point, Vec)
 import Geometry.Vec qualified as Vec
 import Offset.Tolerance qualified as Tolerance
@@ -61,6 +63,14 @@ firstDisc b = case NonEmpty.head b of
 lastDisc b = case NonEmpty.last b of
   Sloping _ d -> d
   Level s r -> Disc (Segment.end s) r
+
+-- | A branch moved by a vector.
+moved :: Vec -> Branch -> Branch
+moved v = fmap $ \case
+  Sloping d e -> Sloping (disc d) (disc e)
+  Level s r -> Level (Transformation.segment (Transformation.translation v) s) r
+  where
+    disc (Disc c r) = Disc (Vec.shift v c) r
 
 -- Sites -------------------------------------------------------------------------------------------
 

@@ -5,53 +5,50 @@ module Toolpath.CarvingPath
   )
 where
 
-import Base.Quantity (Mm (..), Rad (..), minus, plus, times)
+import Base.Quantity (Mm (..), Rad (..), minus)
 import Base.Region (Located (..), Region)
 import Data.List (mapAccumL)
 import Data.List.NonEmpty (NonEmpty (..))
 import Data.List.NonEmpty qualified as NonEmpty
-import Data.Maybe (fromMaybe, mapMaybe)
-import Geometry.ArcFitting.PolyarcFit qualified as PolyarcFit
+import Data.Maybe (fromMaybe)
 import Geometry.Segment (Segment (Straight))
-import Geometry.Vec (Point)
-import Geometry.Vec qualified as Vec
 import Offset.MedialAxis (Branch, Disc (..), Stretch (..))
 import Offset.MedialAxis qualified as MedialAxis
 import Part.Part (Carving, SpacePoint (..))
 import Part.Part qualified as Part
-import Toolpath.CarvingChain qualified as CarvingChain
+import Toolpath.CarvingArea (CarvedArea)
+import Toolpath.CarvingArea qualified as CarvingArea
 import Toolpath.Error (Error (..))
 import Toolpath.LinkingMove qualified as LinkingMove
-import Toolpath.Tolerance qualified as Tolerance
 import Toolpath.Toolpath (CarvingRest (..), Manner (Manner), Move (Move))
 
 -- | The moves of a V-carving, and what it leaves because its tip is too wide. @at@ is the position
--- of the tool before the statement. Fails if the tip fits nowhere, or if it leaves material that
--- the program does not allow.
-moves :: SpacePoint -> Located Carving -> Either Error (NonEmpty Move, Maybe CarvingRest)
-moves at (Located region c) = case concat (snd (mapAccumL alongChain at chains)) of
-  [] -> Left (NowhereCarved word (Part.carvingTip c))
-  m : more -> case restOf c axes of
-    Just rest
-      | Part.carvingRest c == Part.Refused -> Left (CarvingLeaves word rest (Part.carvingTip c))
-    rest -> Right (m :| more, rest)
+-- of the tool before the statement, and @areas@ are the areas of the carving. Fails if the tip fits
+-- nowhere, or if it leaves material that the program does not allow.
+moves ::
+  [CarvedArea] ->
+  SpacePoint ->
+  Located Carving ->
+  Either Error (NonEmpty Move, Maybe CarvingRest)
+moves areas at (Located region c) =
+  case concat (snd (mapAccumL alongChain at (concatMap CarvingArea.chains areas))) of
+    [] -> Left (NowhereCarved word (Part.carvingTip c))
+    m : more -> case restOf (concatMap CarvingArea.rests areas) of
+      Just rest
+        | Part.carvingRest c == Part.Refused -> Left (CarvingLeaves word rest (Part.carvingTip c))
+      rest -> Right (m :| more, rest)
   where
     word = LinkingMove.keyword 6 region
-    axes = map (axisOf c) (NonEmpty.toList (Part.carvedAreas c))
-    deep = map (concatMap (CarvingChain.deepParts (Part.carvingTip c))) axes
-    chains = concatMap CarvingChain.chains deep
     alongChain from chain = (LinkingMove.endPosition from made, made)
       where
         made = chainMoves word c from chain
 
--- | The medial axis of an area, for discs up to the radius of the cone at the largest depth.
-axisOf :: Carving -> (Part.Contour, [Part.Contour]) -> [Branch]
-axisOf c (outline, holes) =
-  MedialAxis.branches (Mm (Tolerance.axisShare * limit)) (Part.carvingReach c) loops
+-- | All places that a tip leaves, as one with their count and the thickest of them.
+restOf :: [CarvingRest] -> Maybe CarvingRest
+restOf = fmap (foldr1 thicker) . NonEmpty.nonEmpty
   where
-    loops = fmap (PolyarcFit.simplified allowed . Part.polyarcOf) (outline :| holes)
-    allowed = times Tolerance.contourShare (Mm limit)
-    Mm limit = uncurry min (Part.deviationLimits (Part.carvingTolerance c))
+    thicker a b =
+      (if thickest a >= thickest b then a else b) {restCount = restCount a + restCount b}
 
 -- | The moves to a chain, down, along it, and up. @at@ is the position of the tool before.
 chainMoves :: Region -> Carving -> SpacePoint -> NonEmpty Branch -> [Move]
@@ -82,35 +79,3 @@ heightAt c r = Mm (negate wider / tan half)
   where
     Mm wider = max (Mm 0) (minus r (Part.carvingTip c))
     Rad half = Part.halfAngle c
-
--- | The material in corners and narrow places of the areas that the tip leaves: the count of such
--- places that are thicker than the tolerance, and the thickest of them. Nothing if there is none.
-restOf :: Carving -> [[Branch]] -> Maybe CarvingRest
-restOf c axes = foldr1 thicker <$> NonEmpty.nonEmpty (map single (filter isThick found))
-  where
-    found = mapMaybe (narrowest (Part.carvingTip c)) (concat axes)
-    limit = uncurry max (Part.deviationLimits (Part.carvingTolerance c))
-    isThick (thickness, _) = thickness > limit
-    single (thickness, p) = CarvingRest {restCount = 1, thickest = thickness, restAt = p}
-    thicker a b =
-      (if thickest a >= thickest b then a else b) {restCount = restCount a + restCount b}
-
--- | The thickness of what a tip of some radius leaves along a branch, and the point there. The
--- discs that are smaller than the tip go beyond the nearest one as large as the tip by this
--- thickness. If all are smaller, it is the diameter of the largest one.
-narrowest :: Mm -> Branch -> Maybe (Mm, Point)
-narrowest tip branch = case (filter isNarrow discs, ends) of
-  ([], _) -> Nothing
-  (small, []) -> Just (largest [(times 2 (discRadius d), discCentre d) | d <- small])
-  (small, _) -> Just (largest [(minimum (map (beyond d) ends), discCentre d) | d <- small])
-  where
-    discs = MedialAxis.firstDisc branch : map final (NonEmpty.toList branch)
-    final s = MedialAxis.lastDisc (s :| [])
-    isNarrow d = discRadius d < tip
-    ends =
-      concat
-        [ [MedialAxis.firstDisc b, MedialAxis.lastDisc b]
-          | b <- CarvingChain.deepParts tip branch
-        ]
-    beyond (Disc p r) (Disc q _) = minus (plus (Vec.distance p q) r) tip
-    largest = foldr1 (\a b -> if fst a >= fst b then a else b)

@@ -30,7 +30,8 @@ import Geometry.ElementCarrier (ElementCarrier (..))
 import Geometry.Tolerance qualified as Tolerance
 import Geometry.Vec qualified as Vec
 import Part.Part
-  ( Contour (elements),
+  ( Carving,
+    Contour (elements),
     Milling (contour),
     Operation (..),
     Part,
@@ -38,6 +39,8 @@ import Part.Part
     Work (..),
   )
 import Part.Part qualified as Part
+import Toolpath.CarvingArea (CarvedArea)
+import Toolpath.CarvingArea qualified as CarvingArea
 import Toolpath.CarvingPath qualified as CarvingPath
 import Toolpath.CuttingPass (CuttingPass (CuttingPass), touchedRadius)
 import Toolpath.CuttingPass qualified as CuttingPass
@@ -155,7 +158,9 @@ data State = State
     -- | radius of the tool in the spindle
     toolRadius :: Mm,
     -- | position of the tool
-    at :: SpacePoint
+    at :: SpacePoint,
+    -- | the areas of the V-carvings of the program
+    carvedAreas :: Carving -> [CarvedArea]
   }
 
 -- | The state before the first operation, given the start. Without a cutter the radius is 0.
@@ -164,14 +169,15 @@ firstState part begin =
   State
     { number = 0,
       toolRadius = maybe (Mm 0) Part.cutterRadius (Part.firstCutter part),
-      at = begin
+      at = begin,
+      carvedAreas = CarvingArea.ofCarvings [c | Carve (Located _ c) <- Part.operations part]
     }
 
 -- | The state after an operation; @bs@ are the blocks of the operation. An operation that fails has
 -- no blocks, and does not move the tool.
 stateAfter :: Operation -> [Block] -> State -> State
-stateAfter operation bs State {number, toolRadius, at} =
-  State
+stateAfter operation bs state@State {number, toolRadius, at} =
+  state
     { number = case operation of
         Mill _ -> number + 1
         Pocket _ -> number + 1
@@ -192,13 +198,13 @@ collect state operations = case operations of
 
 -- | The blocks of one operation, or the error by which it fails.
 blocksOf :: State -> Operation -> Either Error [Block]
-blocksOf State {number, toolRadius, at} operation = case operation of
+blocksOf State {number, toolRadius, at, carvedAreas} operation = case operation of
   Travel stops ->
     let ends = NonEmpty.toList stops
      in Right [Travelling toolRadius ends (LinkingMove.straightMoves at ends)]
   Command c -> Right [Commanding c]
   Drill d -> Right [Holing d (DrillMove.moves at d)]
-  Carve c -> (\(ms, rest) -> [Carved c ms rest]) <$> CarvingPath.moves at c
+  Carve c -> (\(ms, rest) -> [Carved c ms rest]) <$> CarvingPath.moves (carvedAreas (value c)) at c
   Pocket job -> PocketMove.blocks number at job
   Mill (Located region given) -> do
     possible region given

@@ -29,6 +29,8 @@ import Geometry.Polyarc (Polyarc)
 import Geometry.Polyarc qualified as Polyarc
 import Geometry.Segment (Segment (..))
 import Geometry.Segment qualified as Segment
+import Geometry.Transformation qualified as Transformation
+import Geometry.TranslatedCopy qualified as TranslatedCopy
 import Geometry.Vec (Point, Vec)
 import Geometry.Vec qualified as Vec
 import Geometry.WindingNumber qualified as WindingNumber
@@ -46,13 +48,21 @@ import Verify.Proof (Finding (CarvesBeyond, EdgeNotCarved))
 data Carved = Carved
   { statement :: Region,
     carving :: Carving,
+    setting :: Setting,
     -- | the areas by their bounding boxes, each with its segments, which have it on their left
     areas :: BoxTree (BoundingBox, BoxTree Segment),
     -- | all segments
     edges :: BoxTree Segment,
-    -- | the deviation in mm that is allowed at the top of the part
-    allowed :: Double
+    -- | discs along the edges
+    discs :: [EdgeDisc]
   }
+
+-- | A point of an edge, and the centre and the radius in mm of the largest disc in the area, up to
+-- the radius of the cone at the largest depth, that touches the edge there.
+data EdgeDisc = EdgeDisc Point Point Double
+
+-- | The segments of a connected area, which have it on their left, and discs along them.
+data CheckedArea = CheckedArea (NonEmpty Segment) [EdgeDisc]
 
 -- | Findings for the V-carvings of a program. @isAligned@ is true if each frame of the tape ends
 -- where the planned frame of the same number does; the planned frames then say which motions carve.
@@ -68,12 +78,20 @@ carvingFindings ::
   [Finding]
 carvingFindings machine path program isAligned toolsIn motions =
   concat
-    [ findingsOf (carvedOf machine region c) (filter isLow (ofBlock n tool c))
+    [ findingsOf (carvedOf machine areaFor region c) (filter isLow (ofBlock n tool c))
       | (n, tool, Toolpath.Carved (Located region c) _ _) <-
           zip3 [0 ..] (Toolpath.toolIndices blocks) blocks
     ]
   where
     blocks = Toolpath.blocks path
+    areaFor =
+      TranslatedCopy.shared
+        checkedArea
+        moved
+        [ (settingOf machine c, a)
+          | Toolpath.Carved (Located _ c) _ _ <- blocks,
+            a <- NonEmpty.toList (areasOf c)
+        ]
     isLow m = uncurry min (Motion.heights m) < Mm 0
     ofBlock n tool c
       | isAligned = IntMap.findWithDefault [] n aligned
@@ -88,7 +106,7 @@ carvingFindings machine path program isAligned toolsIn motions =
         ]
     isNear c m = BoundingBox.meets (Motion.box m) (boxOf c)
     boxOf c =
-      boxAround (sconcat (fmap (segmentsBy id) (Part.carvedAreas c)))
+      boxAround (sconcat (sconcat (fmap (fmap Polyarc.segments) (areasOf c))))
 
 boxAround :: NonEmpty Segment -> BoundingBox
 boxAround = foldr1 BoundingBox.union . fmap BoundingBox.ofSegment
@@ -98,27 +116,70 @@ boxAround = foldr1 BoundingBox.union . fmap BoundingBox.ofSegment
 contourShare :: Double
 contourShare = 0.05
 
--- | The segments of an area, with the area on their left, after a change of its contours.
-segmentsBy :: (Polyarc -> Polyarc) -> (Part.Contour, [Part.Contour]) -> NonEmpty Segment
-segmentsBy change (outline, holes) =
-  sconcat (fmap (Polyarc.segments . change . Part.polyarcOf) (outline :| holes))
+-- | The numbers on which the comparison with a V-carving depends, in mm.
+data Setting = Setting
+  { -- | the deviation by which the compared contours may deviate from those of the part
+    contourDeviation :: Double,
+    -- | the deviation that is allowed at the top of the part
+    allowed :: Double,
+    -- | the radius of the tip
+    tip :: Double,
+    -- | the radius of the cone at the largest depth
+    widest :: Double
+  }
+  deriving stock (Eq, Ord)
 
-carvedOf :: Machine -> Region -> Carving -> Carved
-carvedOf machine statement carving =
+settingOf :: Machine -> Carving -> Setting
+settingOf machine c =
+  Setting
+    { contourDeviation = contourShare * most,
+      allowed = (1 - contourShare) * most + pulse + pulseZ * slope c,
+      tip,
+      widest
+    }
+  where
+    Mm most = uncurry max (Part.deviationLimits (Part.carvingTolerance c))
+    Mm pulse = Machine.planeResolution machine
+    Mm pulseZ = Machine.resolutionOf machine Machine.Z
+    Mm tip = Part.carvingTip c
+    Mm widest = Part.carvingReach c
+
+-- | The contours of each connected area of a V-carving, the outline first.
+areasOf :: Carving -> NonEmpty (NonEmpty Polyarc)
+areasOf = fmap (\(outline, holes) -> fmap Part.polyarcOf (outline :| holes)) . Part.carvedAreas
+
+-- | The area with some contours.
+checkedArea :: Setting -> NonEmpty Polyarc -> CheckedArea
+checkedArea setting contours = CheckedArea segments (discsOf setting segments)
+  where
+    segments = sconcat (fmap (Polyarc.segments . simpler) contours)
+    simpler = PolyarcFit.simplified (Mm (contourDeviation setting))
+
+-- | An area moved by a vector.
+moved :: Vec -> CheckedArea -> CheckedArea
+moved v (CheckedArea segments discs) =
+  CheckedArea
+    (fmap (Transformation.segment (Transformation.translation v)) segments)
+    [EdgeDisc (Vec.shift v p) (Vec.shift v c) r | EdgeDisc p c r <- discs]
+
+carvedOf ::
+  Machine -> (Setting -> NonEmpty Polyarc -> CheckedArea) -> Region -> Carving -> Carved
+carvedOf machine areaFor statement carving =
   Carved
     { statement,
       carving,
-      areas = BoxTree.index fst [(boxAround ss, treeOf ss) | ss <- NonEmpty.toList loops],
-      edges = treeOf (sconcat loops),
-      allowed = (1 - contourShare) * most + pulse + pulseZ * slope carving
+      setting,
+      areas = BoxTree.index fst [(boxAround ss, treeOf ss) | ss <- NonEmpty.toList segments],
+      edges = treeOf (sconcat segments),
+      discs = concat [ds | CheckedArea _ ds <- NonEmpty.toList found]
     }
   where
-    loops = fmap (segmentsBy simpler) (Part.carvedAreas carving)
-    simpler = PolyarcFit.simplified (Mm (contourShare * most))
-    treeOf = BoxTree.index BoundingBox.ofSegment . NonEmpty.toList
-    Mm most = uncurry max (Part.deviationLimits (Part.carvingTolerance carving))
-    Mm pulse = Machine.planeResolution machine
-    Mm pulseZ = Machine.resolutionOf machine Machine.Z
+    setting = settingOf machine carving
+    found = fmap (areaFor setting) (areasOf carving)
+    segments = fmap (\(CheckedArea ss _) -> ss) found
+
+treeOf :: NonEmpty Segment -> BoxTree Segment
+treeOf = BoxTree.index BoundingBox.ofSegment . NonEmpty.toList
 
 -- | The radius by which the cone grows for each mm of height.
 slope :: Carving -> Double
@@ -151,7 +212,7 @@ findingsOf carved ms =
 -- a motion does not go on from the one before it.
 beyond :: Carved -> Maybe CutterMotion -> CutterMotion -> Maybe (Point, Double)
 beyond carved before m
-  | far > allowed carved = Just (p, far)
+  | far > allowed (setting carved) = Just (p, far)
   | otherwise = case filter isOutside unknown of
     (q, r) : _ -> Just (q, r)
     [] -> Nothing
@@ -160,7 +221,7 @@ beyond carved before m
     (begin, stop) = endDiscs c m
     (r0, r1) = (snd begin, snd stop)
     paths = Motion.pathList m
-    isLarge (_, r) = r > allowed carved
+    isLarge (_, r) = r > allowed (setting carved)
     unknown
       | isLarge begin = [begin | fmap (snd . endDiscs c) before /= Just begin]
       | otherwise = filter isLarge [stop]
@@ -230,30 +291,37 @@ overlap (path, r0, r1) edge = case path of
 sampleStep :: Mm
 sampleStep = Mm 0.5
 
+-- | Discs at points of the edges of an area whose largest disc is at least as large as the tip.
+discsOf :: Setting -> NonEmpty Segment -> [EdgeDisc]
+discsOf setting segments =
+  [ EdgeDisc p centre r
+    | s <- NonEmpty.toList segments,
+      u <- sampled s,
+      let p = Segment.at u s
+          (centre, r) = largest setting area p (Vec.left (Segment.directionAt u s)),
+      r >= tip setting
+  ]
+  where
+    area = treeOf segments
+    sampled s =
+      let Mm long = Segment.length s
+          Mm step = sampleStep
+          count = ceiling (long / step) :: Int
+       in [(fromIntegral k + 0.5) / fromIntegral count | k <- [0 .. count - 1]]
+
 -- | Points of the edges at which the largest disc that the tool can cut there is not cut, nor a
 -- larger one that reaches the point. A larger one is cut where an edge bends sharply: there the
 -- largest disc depends on changes of the contour that are far below the tolerance.
 uncarved :: Carved -> [CutterMotion] -> [Point]
 uncarved carved ms =
   [ p
-    | (_, area) <- BoxTree.toList (areas carved),
-      s <- BoxTree.toList area,
-      u <- sampled s,
-      let p = Segment.at u s
-          (centre, r) = largest carved area p (Vec.left (Segment.directionAt u s)),
-      r >= tip,
+    | EdgeDisc p centre r <- discs carved,
       not (any (isCut centre r) (near (Mm slack) centre)),
       not (any (isReached p r) (near (plus (Part.carvingReach (carving carved)) (Mm slack)) p))
   ]
   where
-    sampled s =
-      let Mm long = Segment.length s
-          Mm step = sampleStep
-          count = ceiling (long / step) :: Int
-       in [(fromIntegral k + 0.5) / fromIntegral count | k <- [0 .. count - 1]]
-    Mm tip = Part.carvingTip (carving carved)
     index = BoxTree.index Motion.box ms
-    slack = 2 * allowed carved
+    slack = 2 * allowed (setting carved)
     near far p = BoxTree.within (BoundingBox.inflate far (BoundingBox.ofPoints p [])) index
     isCut centre r m = any (isAlong centre r (radii m)) (Motion.pathList m)
     isAlong centre r (r0, r1) path =
@@ -278,10 +346,9 @@ uncarved carved ms =
 -- large is replaced by the one that touches the edge at its nearest point, until none is nearer
 -- (Ma, Bae and Choi, "3D medial axis point approximation using nearest neighbors and the normal
 -- field").
-largest :: Carved -> BoxTree Segment -> Point -> Vec -> (Point, Double)
-largest carved area p n = go (100 :: Int) widest
+largest :: Setting -> BoxTree Segment -> Point -> Vec -> (Point, Double)
+largest setting area p n = go (100 :: Int) (widest setting)
   where
-    Mm widest = Part.carvingReach (carving carved)
     go steps r
       | steps == 0 || r <= 0 = (c, max 0 r)
       | otherwise = case nearestWithin c (r - within) of
@@ -292,7 +359,7 @@ largest carved area p n = go (100 :: Int) widest
            in if under <= 0 then (p, 0) else go (steps - 1) (min (r - within) (Vec.dot d d / under))
       where
         c = Vec.shift (Vec.scale r n) p
-    within = 0.01 * allowed carved
+    within = 0.01 * allowed setting
     nearestWithin c r = case BoxTree.closest (Distance.toPoint c) c area of
       Just (Mm d, e) | d < r -> Just (snd (Distance.nearest c e))
       _ -> Nothing
