@@ -203,7 +203,7 @@ typedExpressions s = case value s of
   Pocket e f _ settings -> (Nothing, e) : (Just Type.len, f) : concatMap typedSetting settings
   RestOf e f settings -> (Nothing, e) : (Just Type.len, f) : concatMap typedSetting settings
   Face e f settings -> (Nothing, e) : (Just Type.len, f) : concatMap typedSetting settings
-  DrawnText _ _ text -> typedLettering text
+  DrawnText _ _ text _ -> typedLettering text
   Vcarve e _ settings -> (Nothing, e) : concatMap typedSetting settings
   Engrave text settings -> typedLettering text <> concatMap typedSetting settings
   Contour {} -> concatMap typedItem (SyntaxWalk.itemsOf s)

@@ -54,12 +54,12 @@ import Data.Map.Strict qualified as Map
 import Data.Maybe (catMaybes, listToMaybe)
 import Data.Set qualified as Set
 import Data.Text (Text)
+import Font.TextOutline (LetterShape)
 import Surface.FileUnit qualified as FileUnit
 import Surface.HoleForm qualified as HoleForm
 import Surface.Syntax (Statement)
 import Surface.Syntax qualified as Surface
 import Surface.SyntaxWalk qualified as SyntaxWalk
-import Surface.TextPlace qualified as TextPlace
 
 -- | Checks a program. The output contains all statements without mistakes.
 check :: Surface.Program -> Result w Error Program
@@ -153,7 +153,7 @@ statement env (Located at s) = case s of
   Surface.LetFunction n parameters e -> done (functionDefinition env n parameters e)
   Surface.Contour n closure items -> done (contourDefinition env n closure items)
   Surface.Drawn {} -> pure Nothing
-  Surface.DrawnText n _ text -> done (textPlace env n text)
+  Surface.DrawnText n _ text shapes -> done (letters env n text shapes)
   Surface.Table n written -> done (tableDefinition env n written)
   Surface.Curve n e -> done (valueDefinition n (curve env e))
   Surface.Piece n e ciphers side joggles -> done (pieceDefinition env n e ciphers side joggles)
@@ -378,24 +378,17 @@ contourDefinition env name closure items = do
       Surface.Element _ (Located _ (Surface.Literal _ _)) _ _ -> True
       _ -> False
 
--- | Checks the place of a text with outlines, and binds the names of the point and the vectors of
--- the place. They are poisoned if the place contains a mistake.
-textPlace ::
+-- | Checks a text in a font, and binds the name of its region.
+letters ::
   TypingEnvironment ->
   Located Name ->
   Surface.Lettering ->
+  [LetterShape] ->
   Infer (Maybe (Deferred Checked.Statement_))
-textPlace env name text = do
-  checked <- Inference.separately (Lettering.checkPlace env text)
-  let bind word t =
-        Inference.define
-          (word (value name))
-          (maybe (Poisoned (region name)) (const (Value (region name) t)) checked)
-  bind TextPlace.origin Type.aPoint
-  bind TextPlace.along Type.aVector
-  bind TextPlace.upward Type.aVector
-  let make (point, height, direction) = Checked.TextPlace name point height direction
-  pure ((make .) <$> checked)
+letters env name text shapes = do
+  checked <-
+    defining name (const (Value (region name) Type.PlaneRegion)) (Lettering.checkPlace env text)
+  pure ((\place sol -> Checked.Letters name (place sol) shapes) <$> checked)
 
 -- | Checks the definition of a table, and binds its name. The lines of a table from a file have
 -- been read before this pass.

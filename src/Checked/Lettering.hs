@@ -34,12 +34,9 @@ check env text = do
         Checked.textAlignment = fromMaybe Surface.AlignLeft (Surface.alignment text)
       }
 
--- | Checks the place of a text with outlines. The direction is 'Nothing' if it is along x. A text
--- round a circle has been refused where its font was read.
-checkPlace ::
-  TypingEnvironment ->
-  Surface.Lettering ->
-  Infer (Deferred (Checked.Expr, Checked.Expr, Maybe Checked.Expr))
+-- | Checks the place of a text in a font. A text round a circle has been refused where its font was
+-- read.
+checkPlace :: TypingEnvironment -> Surface.Lettering -> Infer (Deferred Checked.TextPlace)
 checkPlace env text = do
   point <- expect env Type.aPoint (Surface.textPoint text)
   height <- expect env Type.len (Surface.textHeight text)
@@ -47,4 +44,4 @@ checkPlace env text = do
     Surface.Level -> pure (const Nothing)
     Surface.Inclined e -> fmap Just <$> expect env Type.angle e
     Surface.Around _ _ -> pure (const Nothing)
-  pure (\sol -> (point sol, height sol, direction sol))
+  pure (\sol -> Checked.TextPlace (point sol) (height sol) (direction sol))

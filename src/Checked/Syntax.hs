@@ -25,6 +25,7 @@ module Checked.Syntax
     Spin (..),
     Engraving (..),
     TextLine (..),
+    TextPlace (..),
     Assertion (..),
     Settings (..),
     DescentForm (..),
@@ -74,6 +75,7 @@ import Checked.Type (Type)
 import Data.List.NonEmpty (NonEmpty)
 import Data.List.NonEmpty qualified as NonEmpty
 import Data.Text (Text)
+import Font.TextOutline (LetterShape)
 import Surface.Syntax
   ( Closure (..),
     Compensation (..),
@@ -154,9 +156,8 @@ data Statement_
   | -- | the name, the curve, the ciphers, the side to which they shift the curve, and the joggles
     Piece (Located Name) Expr [Cipher] (Located Side) [Joggle]
   | Contour (Located Name) (Located Closure) [Item]
-  | -- | the place of a text with outlines: the name of its region, its point, the height of its
-    -- capitals in mm, and its direction if that is not along x
-    TextPlace (Located Name) Expr Expr (Maybe Expr)
+  | -- | a text in a font: the name of its region, its place, and the shapes of its letters
+    Letters (Located Name) TextPlace [LetterShape]
   | Assert Assertion
   | Mill Expr (Located Side) Settings
   | -- | the contour, the stepover in mm, the name of the operation, and the settings
@@ -321,6 +322,11 @@ data TextLine
     InDirection Expr
   | -- | a circle; true if the letters stand inside it
     OnCircle Expr Bool
+  deriving stock (Eq, Show)
+
+-- | The place of a text in a font: the point to which it is aligned, the height of its capitals in
+-- mm, and its direction, which is 'Nothing' along x.
+data TextPlace = TextPlace {textPoint :: Expr, textHeight :: Expr, textDirection :: Maybe Expr}
   deriving stock (Eq, Show)
 
 -- | The settings in the block of a machining statement. Lengths are in mm, feeds in mm/min.

@@ -1,11 +1,16 @@
--- | The outlines of a text: the glyphs of its characters side by side on the x axis.
+-- | The outlines of a text: the glyphs of its characters side by side on the x axis. Letters that
+-- have equal glyphs share their outlines.
 module Font.TextOutline
-  ( TextOutline (..),
-    outlines,
+  ( GlyphPlace (..),
+    shapes,
+    LetterShape (..),
+    capitals,
   )
 where
 
-import Base.Quantity (Mm (..))
+import Base.Quantity (Mm (..), times)
+import Base.Region (Located)
+import Data.List (partition)
 import Data.List.NonEmpty (NonEmpty (..))
 import Data.List.NonEmpty qualified as NonEmpty
 import Data.Maybe (mapMaybe)
@@ -15,28 +20,55 @@ import Geometry.Segment (Segment (Straight))
 import Geometry.Vec (Point)
 import Geometry.Vec qualified as Vec
 
--- | A closed outline of a glyph: the index of its character in the text, from 0, and its parts.
-data TextOutline = TextOutline {character :: Int, path :: NonEmpty PathPart}
+-- | The place of a glyph in a text: the index of its character, from 0, and the x coordinate of its
+-- origin.
+data GlyphPlace = GlyphPlace {character :: Int, begin :: Mm}
   deriving stock (Eq, Show)
 
--- | The outlines of glyphs side by side, in the order of the font, in mm. The letters stand on the
--- x axis. @capitals@ is the height of the capitals in units of the font, above 0, and @size@ the
--- same height in mm. The part @share@ of the width of the text, from 0 to 1, lies before x = 0.
+-- | The height of the capitals for which the outlines of a text are laid out.
+capitals :: Mm
+capitals = Mm 10
+
+-- | The letters of glyphs side by side, in mm, and their closed outlines about the origin of the
+-- glyph. The letters stand on the x axis. @high@ is the height of the capitals in units of the
+-- font, above 0, and @size@ the same height in mm. The part @share@ of the width of the text, from
+-- 0 to 1, lies before x = 0.
 --
--- Parts without a length are left out, and so are contours whose points lie on a line: they enclose
--- nothing.
-outlines :: Double -> Mm -> Double -> [Glyph] -> [TextOutline]
-outlines capitals (Mm size) share glyphs =
-  [ TextOutline {character, path}
-    | (character, begin, glyph) <- zip3 [0 ..] begins glyphs,
-      contour <- glyphContours glyph,
-      not (isFlat contour),
-      Just path <- [NonEmpty.nonEmpty (partsOf (placed begin) contour)]
+-- Letters with equal outlines are together. Letters without outlines are left out, and so are parts
+-- without a length, and contours whose points lie on a line: they enclose nothing.
+shapes :: Double -> Mm -> Double -> [Glyph] -> [(NonEmpty GlyphPlace, NonEmpty (NonEmpty PathPart))]
+shapes high size share glyphs =
+  [ (letters, outlines)
+    | (contours, letters) <- grouped (zip (map glyphContours glyphs) placed),
+      Just outlines <- [NonEmpty.nonEmpty (mapMaybe outlineOf (filter (not . isFlat) contours))]
   ]
   where
     widths = [advance g + kerning g | g <- glyphs]
     begins = scanl (+) (negate (share * sum widths)) widths
-    placed begin p = Vec.point ((begin + Vec.x p) * size / capitals) (Vec.y p * size / capitals)
+    placed = zipWith GlyphPlace [0 ..] (map inMm begins)
+    inMm v = times (v / high) size
+    outlineOf = NonEmpty.nonEmpty . partsOf scaled
+    scaled p =
+      let (Mm x, Mm y) = (inMm (Vec.x p), inMm (Vec.y p)) in Vec.point x y
+
+-- | The values of equal keys together, in the order of the first ones.
+grouped :: Eq k => [(k, v)] -> [(k, NonEmpty v)]
+grouped list = case list of
+  [] -> []
+  (k, v) : more ->
+    let (same, others) = partition ((== k) . fst) more
+     in (k, v :| map snd same) : grouped others
+
+-- | The outlines of equal letters of a text in a font.
+data LetterShape = LetterShape
+  { -- | the regions of these letters, and the x coordinate of the origin of each
+    shapeLetters :: NonEmpty (Located Mm),
+    -- | closed outlines in mm about this origin, for capitals of the height 'capitals', each with
+    -- its depth. Outlines of an even depth add what is inside at least one of them, those of an odd
+    -- depth take it away from what the lower depths have given. At least one has the depth 0
+    shapeOutlines :: NonEmpty (NonEmpty PathPart, Int)
+  }
+  deriving stock (Eq, Show)
 
 -- | True if all points of a contour lie on one line.
 isFlat :: GlyphContour -> Bool

@@ -2,6 +2,7 @@
 -- contour. A modifier sets the feed, a slow-down, the allowance or the bevel of one element.
 module Part.ContourElement
   ( contour,
+    ofValues,
     startingNear,
   )
 where
@@ -16,6 +17,7 @@ import Control.Applicative ((<|>))
 import Data.List.NonEmpty (NonEmpty (..))
 import Data.List.NonEmpty qualified as NonEmpty
 import Data.Maybe (catMaybes, listToMaybe)
+import Data.Semigroup (sconcat)
 import Geometry.Carrier (Line (Line), Sense (..))
 import Geometry.Carrier qualified as Carrier
 import Geometry.Distance qualified as Distance
@@ -58,18 +60,7 @@ contour env name closure items = do
   linked <- Evaluation.collect (item env isWhole) items
   case NonEmpty.nonEmpty linked of
     Nothing -> Evaluation.mistake (InContour (EmptyContour (region name) (value name)))
-    Just some -> case LinkSolver.solve (region name) (Located (region closure) ends) some of
-      Left faults ->
-        Evaluation.mistakes [Error (InContour fault) [] [] | fault <- NonEmpty.toList faults]
-      Right elements ->
-        let written = map asWritten (NonEmpty.toList some)
-            forced = foldr seq written written
-            list = NonEmpty.toList some
-            following = NonEmpty.tail some <> [NonEmpty.head some | ends == Closed]
-            breaks =
-              concatMap LinkSolver.breaks some
-                <> map fst (catMaybes (zipWith LinkSolver.breakBetween list following))
-         in pure Contour {contourName = name, ends, elements, breaks, writtenElements = forced}
+    Just some -> solved name (Located (region closure) ends) some
   where
     ends = case value closure of
       Checked.Open -> Open
@@ -78,6 +69,33 @@ contour env name closure items = do
     isWhole = case items of
       [Located _ Element {}] -> ends == Closed
       _ -> False
+
+-- | Makes a closed contour of values, each with its region, without modifiers and links.
+ofValues :: Located Name -> NonEmpty (Region, Value) -> Eval Contour
+ofValues name values = do
+  linked <- traverse element values
+  solved name (Located (region name) Closed) (sconcat linked)
+  where
+    element (at, v) = do
+      found <- linkedElements (ItemPlace at at False) Nothing v plainFinish Nothing
+      maybe (bug "a value without elements") pure (NonEmpty.nonEmpty found)
+
+-- | Lets the link solver compute the segments of elements. The region is that of the word @open@ or
+-- @closed@.
+solved :: Located Name -> Located Ends -> NonEmpty LinkSolver.LinkedElement -> Eval Contour
+solved name located@(Located _ ends) linked =
+  case LinkSolver.solve (region name) located linked of
+    Left faults ->
+      Evaluation.mistakes [Error (InContour fault) [] [] | fault <- NonEmpty.toList faults]
+    Right elements ->
+      let list = NonEmpty.toList linked
+          written = map asWritten list
+          forced = foldr seq written written
+          following = NonEmpty.tail linked <> [NonEmpty.head linked | ends == Closed]
+          breaks =
+            concatMap LinkSolver.breaks linked
+              <> map fst (catMaybes (zipWith LinkSolver.breakBetween list following))
+       in pure Contour {contourName = name, ends, elements, breaks, writtenElements = forced}
 
 -- | Makes the record of an element as the program wrote it. The ends and the bevels of the linked
 -- element are left out.

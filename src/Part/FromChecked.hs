@@ -48,6 +48,7 @@ import Part.Expression (Environment (..), Turn)
 import Part.Expression qualified as Expression
 import Part.FaceMilling qualified as FaceMilling
 import Part.HoleMachining qualified as HoleMachining
+import Part.Lettering qualified as Lettering
 import Part.Machining (Context (..))
 import Part.Machining qualified as Machining
 import Part.Measure (feedOf, lengthOf, positive, secondsOf, whole)
@@ -56,7 +57,6 @@ import Part.Part
 import Part.Piece qualified as Piece
 import Part.PlaneRegion qualified as PlaneRegion
 import Part.RestMachining qualified as RestMachining
-import Part.TextPlace qualified as TextPlace
 import Part.Transformation qualified as Transformation
 import Part.Value (MachinedBefore (..), NamedOperation (..), Value (..))
 
@@ -220,9 +220,10 @@ step state (Located at s) = case s of
   Checked.Contour name closure items ->
     keep (ContourElement.contour env name closure items) $ \c ->
       (define state name Dimension.none (ContourValue c)) {contours' = c : contours' state}
-  Checked.TextPlace name point height direction ->
-    keep (TextPlace.vectors env point height direction) $ \vs ->
-      withEnvironment state (TextPlace.bound (value name) vs env)
+  Checked.Letters name place shapes ->
+    keep (Lettering.evaluate env name place shapes) $ \(outlines, r) ->
+      let defined = define state name Dimension.none (RegionValue r)
+       in defined {contours' = reverse (outlines <> PlaneRegion.contoursOf r) <> contours' state}
   Checked.Assert assertion ->
     keep
       (Assertion.check at env assertion *> Assertion.sizes env assertion)

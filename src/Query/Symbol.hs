@@ -122,8 +122,7 @@ symbol source (Located whole s) = case s of
   When condition _ _ -> machining (region condition) (region condition)
   With placement _ -> machining (region placement) (region placement)
   Broken _ name -> name >>= \n -> definition Value n ""
-  -- The region of its outlines stands below it, with the same name.
-  DrawnText {} -> Nothing
+  DrawnText name _ _ _ -> definition Value name ""
   Machine _ -> Nothing
   Units _ -> Nothing
   Import _ -> Nothing

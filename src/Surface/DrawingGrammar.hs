@@ -31,8 +31,10 @@ allOutlines :: Parser Expr -> Parser Expr -> Parser Statement_
 allOutlines number expr = do
   what <- name <* keyword "from"
   file <- fileName
-  (DrawnText what file <$> (onThisLine (keyword "text") *> lettering expr))
+  (drawnText what file <$> (onThisLine (keyword "text") *> lettering expr))
     <|> (Drawn AllOutlines what <$> partOf file number)
+  where
+    drawnText what file text = DrawnText what file text []
 
 fileName :: Parser (Located Text)
 fileName = text' <?> "the name of a file in quotation marks"

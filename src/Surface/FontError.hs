@@ -12,7 +12,7 @@ import Data.Text (Text)
 import Data.Text qualified as Text
 import Font.TrueType (FontFault (..))
 import Font.TrueType qualified as TrueType
-import Report.Report (Label (..), Report (..), at, quote)
+import Report.Report (Report (..), at, quote)
 
 -- | A mistake in a text with outlines of a font.
 data FontMistake
@@ -28,9 +28,8 @@ data FontMistake
     NoGlyph Region Char Text
   | -- | a text whose letters have no outlines: the region of the text
     NothingToOutline Region
-  | -- | outlines that cross or touch: the regions of their characters, which are equal for outlines
-    -- of one character
-    CrossingGlyphs Region Region
+  | -- | outlines of one letter that cross or touch: the region of the letter
+    CrossingGlyph Region
   | -- | a text round a circle: the region of the circle
     RoundCircle Region
   deriving stock (Eq, Ord, Show)
@@ -61,28 +60,15 @@ toReport fault = case fault of
       { message = ["A space has none."],
         hints = ["Write at least one letter, digit or sign between the quotation marks."]
       }
-  CrossingGlyphs a b -> crossing a b
+  CrossingGlyph region ->
+    (at region "E0127" "the outlines of this letter cross or touch")
+      { message = ["So inside and outside are not clear."],
+        hints = ["Choose another font."]
+      }
   RoundCircle region ->
     (at region "E0127" "letters with outlines do not stand round a circle")
       { hints = ["Write direction for a straight line. Only engrave has letters round a circle."]
       }
-
--- | The report of outlines that cross or touch, of one letter or of two.
-crossing :: Region -> Region -> Report
-crossing a b
-  | a == b =
-    (at a "E0127" "the outlines of this letter cross or touch")
-      { message = [unclear],
-        hints = ["Choose another font."]
-      }
-  | otherwise =
-    (at b "E0127" "the outlines of this letter cross or touch those of another one")
-      { others = [Label a "the other one"],
-        message = [unclear],
-        hints = ["Write the letters as two texts, and combine their regions with union."]
-      }
-  where
-    unclear = "So inside and outside are not clear."
 
 -- | The report of a font that cannot be read.
 badFont :: Region -> Text -> FontFault -> Report

@@ -1,48 +1,34 @@
--- | Statements that a text in a font gives: the place of the text, a contour for each outline of
--- its letters, and the region that the outlines bound.
+-- | The shapes of the letters of a text in a font: outlines, and the depths that say which of them
+-- are holes.
 module Surface.FromFont
-  ( statements,
+  ( shapes,
   )
 where
 
-import Base.Name (Name (..))
 import Base.Region (Located (..), Region (Region))
 import Base.Region qualified as Region
-import Data.List (nub)
+import Data.Either (partitionEithers)
+import Data.List.NonEmpty (NonEmpty)
 import Data.List.NonEmpty qualified as NonEmpty
 import Data.Maybe (catMaybes, fromMaybe)
 import Data.Text (Text)
 import Data.Text qualified as Text
-import Drawing.Drawing (Entity (Entity), PathPart (..), Shape (Path))
-import Drawing.Drawing qualified as Drawing
+import Drawing.Drawing (Entity (Entity), PathPart, Shape (Path))
 import Drawing.Filling qualified as Filling
-import Drawing.Nesting (Crossing (..))
 import Drawing.Outline (DrawnPart (..), Outline (..))
-import Drawing.PathPart qualified as PathPart
-import Font.TextOutline (TextOutline (..))
+import Font.TextOutline (GlyphPlace (..), LetterShape (..))
 import Font.TextOutline qualified as TextOutline
 import Font.TrueType (FontFault, Glyph, GlyphRun (..))
 import Font.TrueType qualified as TrueType
 import Geometry.Polyarc (Ends (Closed))
-import Geometry.Vec (Point)
-import Geometry.Vec qualified as Vec
-import Surface.DrawnContour qualified as DrawnContour
 import Surface.FontError (FontMistake (..))
-import Surface.FromDrawing qualified as FromDrawing
-import Surface.Syntax hiding (Closed, statements)
-import Surface.Syntax qualified as Surface
-import Surface.TextPlace qualified as TextPlace
+import Surface.Syntax (Lettering (..), TextAlignment (..), TextCourse (..))
 
--- | The statements in place of a text in a font, or its mistakes. @at@ is the region of the
--- statement, @file@ the name of the font, and @answer@ its glyphs of the text, or their fault.
-statements ::
-  Region ->
-  Located Name ->
-  Located Text ->
-  Lettering ->
-  Either FontFault GlyphRun ->
-  Either [FontMistake] [Statement]
-statements at name file@(Located fileAt fileName) text answer
+-- | The shapes of the letters of a text in a font, or its mistakes. @file@ is the name of the font,
+-- and @answer@ its glyphs of the text, or their fault.
+shapes ::
+  Located Text -> Lettering -> Either FontFault GlyphRun -> Either [FontMistake] [LetterShape]
+shapes file@(Located fileAt fileName) text answer
   | Around circle _ <- course text = Left [RoundCircle (region circle)]
   | Text.length (value (lettered text)) > TrueType.mostCharacters =
     Left [LongText (region (lettered text)) (Text.length (value (lettered text)))]
@@ -50,18 +36,30 @@ statements at name file@(Located fileAt fileName) text answer
     run <- either (Left . pure . BadFont fileAt fileName) Right answer
     glyphs <- complete file (lettered text) run
     height <- maybe (Left [NoCapitals fileAt fileName]) Right (capitalHeight run)
-    let outlines = TextOutline.outlines height TextPlace.capitals (share text) glyphs
-    case Filling.filled (map (outlineOf (lettered text)) outlines) of
-      Left crossings -> Left (nub (map crossing (NonEmpty.toList crossings)))
-      Right [] -> Left [NothingToOutline (region (lettered text))]
-      Right found ->
-        Right
-          ( Located at (DrawnText name file text) :
-            FromDrawing.asRegion at name (contourOf at (value name) regionOf) found
-          )
+    let found = TextOutline.shapes height TextOutline.capitals (share text) glyphs
+    case partitionEithers (map (uncurry (shape (lettered text))) found) of
+      ([], filled)
+        | all null filled -> Left [NothingToOutline (region (lettered text))]
+        | otherwise -> Right (concat filled)
+      (crossings, _) -> Left crossings
+
+-- | The shape of equal letters, if they enclose anything, from their closed outlines.
+shape ::
+  Located Text ->
+  NonEmpty GlyphPlace ->
+  NonEmpty (NonEmpty PathPart) ->
+  Either FontMistake [LetterShape]
+shape text letters outlines = case Filling.filled (map outlineOf (NonEmpty.toList outlines)) of
+  Left _ -> Left (CrossingGlyph (regionOf (NonEmpty.head letters)))
+  Right found ->
+    Right
+      [ LetterShape {shapeLetters = fmap (Located <$> regionOf <*> begin) letters, shapeOutlines}
+        | Just shapeOutlines <- [NonEmpty.nonEmpty [(fmap part (parts o), d) | (o, d) <- found]]
+      ]
   where
-    regionOf = characterRegion (lettered text) . Drawing.line
-    crossing (Crossing a b _) = CrossingGlyphs (regionOf a) (regionOf b)
+    regionOf = characterRegion text . character
+    outlineOf path =
+      Outline Closed (fmap (DrawnPart (Entity 0 "" "" [] [] (Path Closed path))) path)
 
 -- | The part of the width of a text that lies before its point.
 share :: Lettering -> Double
@@ -87,35 +85,3 @@ characterRegion :: Located Text -> Int -> Region
 characterRegion (Located at _) k = Region from (from + 1)
   where
     from = Region.start at + 1 + k
-
--- | The closed outline of a letter. Its entity has the index of the character, from 0, in place of
--- a line, and the character as its word.
-outlineOf :: Located Text -> TextOutline -> Outline
-outlineOf text (TextOutline k path) = Outline Closed (fmap (DrawnPart letter) path)
-  where
-    letter = Entity k (Text.take 1 (Text.drop k (value text))) "" [] [] (Path Closed path)
-
--- | The contour of an outline with the name @own@, for a text whose region has the name @name@.
-contourOf :: Region -> Name -> (Entity -> Region) -> Located Name -> Outline -> Statement
-contourOf at name regionOf own outline =
-  Located at (Contour own (Located at Surface.Closed) (concatMap items (parts outline)))
-  where
-    items p =
-      element p (placed p (PathPart.start (part p))) :
-        [ element p (DrawnContour.call (here p) "bezier" [Located (here p) (List points)])
-          | Bezier controls _ <- [part p],
-            let points = map (placed p) (NonEmpty.toList controls)
-        ]
-    here = regionOf . entity
-    element p e = Located (here p) (Element Nothing e [] Nothing)
-    placed = pointOf name . here
-
--- | The point of a text from its position in the outlines, in mm.
-pointOf :: Name -> Region -> Point -> Expr
-pointOf name at p =
-  named TextPlace.origin
-    `plus` (times (Vec.x p) TextPlace.along `plus` times (Vec.y p) TextPlace.upward)
-  where
-    named word = Located at (Variable (word name))
-    plus a b = Located at (Binary Add a b)
-    times v word = Located at (Binary Multiply (DrawnContour.number at Nothing v) (named word))

@@ -223,22 +223,22 @@ replaceImports reader chain = fmap concat . mapM replace
         made <- fromDrawing reader chain part $ \text nameAt chosen ->
           FromDrawing.contours text region nameAt asked name chosen
         pure (fromMaybe [Located region (Broken (Just "contour") (Just name))] made)
-      Located region (DrawnText name font text) -> do
-        made <- fromFont reader chain region name font text
-        pure (fromMaybe [Located region (Broken (Just "contours") (Just name))] made)
+      Located region (DrawnText name font text _) -> do
+        made <- fromFont reader chain name font text
+        pure [Located region (fromMaybe (Broken (Just "contours") (Just name)) made)]
       _ -> pure [s]
 
--- | The statements in place of a text in a font. Records mistakes; 'Nothing' if there are any.
+-- | The statement of a text in a font, with the shapes of its letters. Records mistakes; 'Nothing'
+-- if there are any.
 fromFont ::
   Monad m =>
   Reader m ->
   Chain ->
-  Region ->
   Located Name ->
   Located Text ->
   Lettering ->
-  StateT Progress m (Maybe [Statement])
-fromFont reader chain region name font@(Located at file) text = do
+  StateT Progress m (Maybe Statement_)
+fromFont reader chain name font@(Located at file) text = do
   path <- namedPath chain at file
   answer <-
     if FileFormat.isFont file
@@ -251,9 +251,9 @@ fromFont reader chain region name font@(Located at file) text = do
       Nothing <$ modify' (\p -> p {found = FileMissing at "font" file reason near : found p})
     Just (Right run) -> do
       modify' (\p -> p {runs = Map.insert (path, value (lettered text)) run (runs p)})
-      case FromFont.statements region name font text run of
+      case FromFont.shapes font text run of
         Left faults -> mistakes' faults
-        Right made -> pure (Just made)
+        Right made -> pure (Just (DrawnText name font text made))
   where
     mistakes' faults = recorded (Converted (map InFont faults) [] Nothing)
 

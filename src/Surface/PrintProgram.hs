@@ -122,7 +122,7 @@ statement comments indent (Located _ s) = case s of
       (concatMap (item comments (indent + 2)) items)
   Drawn outlines (Located _ (Name name)) part ->
     plain (spaced (Text (drawnWord outlines <> " " <> name) : drawingReference comments part))
-  DrawnText (Located _ (Name name)) (Located _ font) text ->
+  DrawnText (Located _ (Name name)) (Located _ font) text _ ->
     plain (lettering comments ("contours " <> name <> " from " <> quoted font <> " text") text)
   Table (Located _ (Name name)) (LinesFromDrawing part) ->
     plain (spaced (Text ("table " <> name) : drawingReference comments part))

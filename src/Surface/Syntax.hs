@@ -76,6 +76,7 @@ import Base.Region (Located)
 import Data.List.NonEmpty (NonEmpty)
 import Data.Map.Strict (Map)
 import Data.Text (Text)
+import Font.TextOutline (LetterShape)
 import Surface.Token (Numeral (..), Unit)
 
 -- | A program: its statements and its comments, each list in the order of the text. 'units' are the
@@ -132,8 +133,9 @@ data Statement_
   | -- | @contour edge from "stand.dxf" layer "CUT"@: one outline of a drawing, and
     -- @contours parts from "stand.dxf" layer "CUT"@: all of them, as a region
     Drawn DrawnOutlines (Located Name) DrawingReference
-  | -- | @contours sign from "sans.ttf" text "12" at p height 8@: the name, the file of the font
-    DrawnText (Located Name) (Located Text) Lettering
+  | -- | @contours sign from "sans.ttf" text "12" at p height 8@: the name, the file of the font,
+    -- the text, and the shapes of its letters, of which there are none until the font is read
+    DrawnText (Located Name) (Located Text) Lettering [LetterShape]
   | -- | @table profile { x y … }@ and @table profile from "profile.csv"@
     Table (Located Name) Lines
   | -- | @curve skin = spline(profile)@

@@ -56,7 +56,7 @@ definedName s = case s of
   Param n _ -> Just n
   Contour n _ _ -> Just n
   Drawn _ n _ -> Just n
-  DrawnText n _ _ -> Just n
+  DrawnText n _ _ _ -> Just n
   Table n _ -> Just n
   Curve n _ -> Just n
   Piece n _ _ _ _ -> Just n
@@ -112,7 +112,7 @@ ofStatement (Located _ s) = case s of
   Param _ e -> [e]
   Contour _ _ items -> concatMap ofItem items
   Drawn _ _ part -> maybeToList (joinedWithin part)
-  DrawnText _ _ text -> ofLettering text
+  DrawnText _ _ text _ -> ofLettering text
   Table _ (WrittenLines ls) -> concatMap ofLine ls
   Table _ (LinesFromFile _) -> []
   Table _ (LinesFromDrawing part) -> maybeToList (joinedWithin part)

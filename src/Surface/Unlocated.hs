@@ -11,6 +11,7 @@ import Base.NumberTable qualified as NumberTable
 import Base.Region (Located (Located), Region (..))
 import Data.Bifunctor (bimap)
 import Data.List.NonEmpty qualified as NonEmpty
+import Font.TextOutline (LetterShape (..))
 import Surface.Syntax hiding (statements)
 
 -- | Statements without regions, for the comparison of two texts. Rows of numbers from files become
@@ -38,6 +39,9 @@ lettering (Lettering text at height course alignment) =
       Inclined e -> Inclined (expr e)
       Around e side -> Around (expr e) (fmap here side)
 
+letterShape :: LetterShape -> LetterShape
+letterShape (LetterShape letters outlines) = LetterShape (fmap here letters) outlines
+
 statement :: Statement_ -> Statement_
 statement s = case s of
   Part name title -> Part (here name) (fmap here title)
@@ -59,7 +63,8 @@ statement s = case s of
   Param name e -> Param (here name) (expr e)
   Contour name closure items -> Contour (here name) (here closure) (map (unlocated item) items)
   Drawn outlines name part -> Drawn outlines (here name) (drawingReference part)
-  DrawnText name font text -> DrawnText (here name) (here font) (lettering text)
+  DrawnText name font text shapes ->
+    DrawnText (here name) (here font) (lettering text) (map letterShape shapes)
   Table name ls -> Table (here name) (lines' ls)
   Curve name e -> Curve (here name) (expr e)
   Piece name e cs side joggles ->

@@ -12,6 +12,8 @@ import Data.ByteString (ByteString)
 import Data.ByteString qualified as ByteString
 import Data.ByteString.Lazy qualified as Lazy
 import Data.Either (isLeft)
+import Data.List (sortOn)
+import Data.List.NonEmpty (NonEmpty)
 import Data.List.NonEmpty qualified as NonEmpty
 import Data.Maybe (catMaybes, fromMaybe)
 import Data.Semigroup (sconcat)
@@ -19,11 +21,12 @@ import Data.Text (Text)
 import Data.Text qualified as Text
 import Drawing.Drawing (PathPart (..))
 import Drawing.PathPart qualified as PathPart
-import Font.TextOutline (TextOutline (..))
+import Font.TextOutline (GlyphPlace (..))
 import Font.TextOutline qualified as TextOutline
 import Font.TrueType
 import Geometry.Polyarc (Ends (Closed), Polyarc (..))
 import Geometry.Polyarc qualified as Polyarc
+import Geometry.Transformation qualified as Transformation
 import Geometry.Vec (Point)
 import Geometry.Vec qualified as Vec
 import PythonJudge qualified
@@ -41,7 +44,7 @@ spec = do
       forAll ((,) <$> choose (1, 50) <*> choose (0, 1)) $ \(size, share) ->
         let k = size / 700
             expected = k * k * sum [areaOf c | g <- gs, c <- glyphContours g]
-            found = sum (map signedArea (TextOutline.outlines 700 (Mm size) share gs))
+            found = sum (map (signedArea . snd) (placed 700 size share gs))
          in counterexample (show (found, expected)) $
               abs (found - expected) <= 1e-4 * k * k * sum [boxOf c | g <- gs, c <- glyphContours g]
                 + 1e-4 * size
@@ -63,7 +66,12 @@ spec = do
       ends `shouldContain` [Vec.point 510.5 604]
     it "contours that enclose nothing and curves without a length are left out" $ do
       Right outlines <- outlinesIn "cubic.otf" 7 0 "I"
-      map (NonEmpty.length . path) outlines `shouldBe` [4, 2]
+      map (NonEmpty.length . snd) outlines `shouldBe` [4, 2]
+    it "equal letters share their outlines" $ do
+      font <- ByteString.readFile (fonts </> "quadratic.ttf")
+      Right run <- glyphs font "OHO O"
+      let found = TextOutline.shapes 700 (Mm 7) 0 (catMaybes (characterGlyphs run))
+      map (map character . NonEmpty.toList . fst) found `shouldBe` [[0, 2, 4], [1]]
     it "every beginning of a font gives glyphs or a fault" $
       forM_ ["quadratic.ttf", "cubic.otf"] $ \file -> do
         font <- ByteString.readFile (fonts </> file)
@@ -94,20 +102,39 @@ spec = do
       Right run -> length (catMaybes (characterGlyphs run))
       Left _ -> 0
 
+-- | The index of a character, and an outline of it.
+type PlacedOutline = (Int, NonEmpty PathPart)
+
 fonts :: FilePath
 fonts = "test/data/fonts"
 
 -- | Outlines of a text in a font of the tests, for a height of the capitals in mm.
-outlinesIn :: FilePath -> Double -> Double -> Text -> IO (Either FontFault [TextOutline])
+outlinesIn :: FilePath -> Double -> Double -> Text -> IO (Either FontFault [PlacedOutline])
 outlinesIn file size share text =
   outlinesOf size share text =<< ByteString.readFile (fonts </> file)
 
-outlinesOf :: Double -> Double -> Text -> ByteString -> IO (Either FontFault [TextOutline])
+outlinesOf :: Double -> Double -> Text -> ByteString -> IO (Either FontFault [PlacedOutline])
 outlinesOf size share text font = fmap outlinesFrom <$> glyphs font text
   where
     outlinesFrom run =
       let height = fromMaybe 0 (capitalHeight run)
-       in TextOutline.outlines height (Mm size) share (catMaybes (characterGlyphs run))
+       in placed height size share (catMaybes (characterGlyphs run))
+
+-- | The outlines of glyphs at their places, in the order of the text.
+placed :: Double -> Double -> Double -> [Glyph] -> [PlacedOutline]
+placed height size share gs =
+  sortOn
+    fst
+    [ (character letter, fmap (movedBy (begin letter)) path)
+      | (letters, outlines) <- TextOutline.shapes height (Mm size) share gs,
+        letter <- NonEmpty.toList letters,
+        path <- NonEmpty.toList outlines
+    ]
+  where
+    movedBy (Mm x) part = case part of
+      Plain s -> Plain (Transformation.segment (Transformation.translation (Vec.vec x 0)) s)
+      Bezier controls ws -> Bezier (fmap (Vec.shift (Vec.vec x 0)) controls) ws
+      other -> other
 
 -- | The expectation that fontTools gives the same points for a text in a font.
 judged :: FilePath -> Text -> Expectation
@@ -131,8 +158,8 @@ judged file text = do
           "height" .= (8 :: Double),
           "share" .= (0.5 :: Double),
           "outlines"
-            .= [ object ["character" .= character o, "parts" .= fmap pointsOf (path o)]
-                 | o <- outlines
+            .= [ object ["character" .= k, "parts" .= fmap pointsOf path]
+                 | (k, path) <- outlines
                ]
         ]
     pointsOf p = case p of
@@ -143,8 +170,8 @@ judged file text = do
 -- Areas -------------------------------------------------------------------------------------------
 
 -- | The area of an outline, positive counter-clockwise.
-signedArea :: TextOutline -> Double
-signedArea o = Polyarc.signedArea (Polyarc Closed (sconcat (fmap PathPart.segments (path o))))
+signedArea :: NonEmpty PathPart -> Double
+signedArea path = Polyarc.signedArea (Polyarc Closed (sconcat (fmap PathPart.segments path)))
 
 -- | The area of a contour of a glyph from the polynomials of its curves: the integral of
 -- (x dy - y dx) / 2, where a Bézier curve is a sum of Bernstein polynomials.

@@ -204,7 +204,7 @@ statement n = at (frequency ([(1, s) | s <- simple] <> [(3, s) | n > 0, s <- dee
         Table <$> at name <*> (LinesFromFile <$> at title),
         Table <$> at name <*> (LinesFromDrawing <$> drawingReference),
         Drawn <$> elements [OneOutline, AllOutlines] <*> at name <*> drawingReference,
-        DrawnText <$> at name <*> at ((<> ".ttf") <$> title) <*> lettering n,
+        DrawnText <$> at name <*> at ((<> ".ttf") <$> title) <*> lettering n <*> pure [],
         Curve <$> at name <*> expr (n + 1),
         Piece
           <$> at name

@@ -1,5 +1,5 @@
--- | Outlines of texts at their places in the part.
-module Part.TextPlaceSpec (spec) where
+-- | Texts in a font at their places in the part.
+module Part.LetteringSpec (spec) where
 
 import Base.Decimal qualified as Decimal
 import Base.Name (Name (..))
@@ -15,7 +15,7 @@ import Data.Maybe (catMaybes)
 import Data.Text (Text)
 import Data.Text qualified as Text
 import Drawing.PathPart qualified as PathPart
-import Font.TextOutline (TextOutline (..))
+import Font.TextOutline (GlyphPlace (..))
 import Font.TextOutline qualified as TextOutline
 import Font.TrueType (GlyphRun (..))
 import Font.TrueType qualified as TrueType
@@ -72,8 +72,11 @@ placed font text size turned (x, y) share = either (const []) starts <$> TrueTyp
   where
     starts run =
       [ Vec.shift (Vec.rotate (Rad (turned * pi / 180)) (Vec.to (Vec.point 0 0) q)) (Vec.point x y)
-        | o <- TextOutline.outlines 700 (Mm size) share (catMaybes (characterGlyphs run)),
-          q <- map PathPart.start (NonEmpty.toList (path o))
+        | (letters, outlines) <-
+            TextOutline.shapes 700 (Mm size) share (catMaybes (characterGlyphs run)),
+          Mm far <- map begin (NonEmpty.toList letters),
+          p <- map PathPart.start (concatMap NonEmpty.toList outlines),
+          let q = Vec.shift (Vec.vec far 0) p
       ]
 
 -- | The points at which the segments of the contours of the text begin.
