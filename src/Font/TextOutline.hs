@@ -3,7 +3,9 @@
 module Font.TextOutline
   ( GlyphPlace (..),
     shapes,
+    GlyphName (..),
     LetterShape (..),
+    FilledOutlines,
     capitals,
   )
 where
@@ -59,14 +61,21 @@ grouped list = case list of
     let (same, others) = partition ((== k) . fst) more
      in (k, v :| map snd same) : grouped others
 
+-- | The path of a font, and a character of it.
+data GlyphName = GlyphName FilePath Char
+  deriving stock (Eq, Ord, Show)
+
+-- | Closed outlines in mm about the origin of a glyph, for capitals of the height 'capitals', each
+-- with its depth. Outlines of an even depth add what is inside at least one of them, those of an
+-- odd depth take it away from what the lower depths have given. At least one has the depth 0.
+type FilledOutlines = NonEmpty (NonEmpty PathPart, Int)
+
 -- | The outlines of equal letters of a text in a font.
 data LetterShape = LetterShape
-  { -- | the regions of these letters, and the x coordinate of the origin of each
+  { shapeGlyph :: GlyphName,
+    -- | the regions of these letters, and the x coordinate of the origin of each
     shapeLetters :: NonEmpty (Located Mm),
-    -- | closed outlines in mm about this origin, for capitals of the height 'capitals', each with
-    -- its depth. Outlines of an even depth add what is inside at least one of them, those of an odd
-    -- depth take it away from what the lower depths have given. At least one has the depth 0
-    shapeOutlines :: NonEmpty (NonEmpty PathPart, Int)
+    shapeOutlines :: FilledOutlines
   }
   deriving stock (Eq, Show)
 

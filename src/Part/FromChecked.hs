@@ -48,6 +48,7 @@ import Part.Expression (Environment (..), Turn)
 import Part.Expression qualified as Expression
 import Part.FaceMilling qualified as FaceMilling
 import Part.HoleMachining qualified as HoleMachining
+import Part.Lettering (KnownLetters)
 import Part.Lettering qualified as Lettering
 import Part.Machining (Context (..))
 import Part.Machining qualified as Machining
@@ -76,6 +77,8 @@ data State = State
     highestClearance :: Maybe (Located Mm),
     start' :: Maybe (Located SpacePoint),
     contours' :: [Contour],
+    -- | the letters of texts in fonts so far
+    letters' :: KnownLetters,
     operations' :: [Operation],
     readings' :: [(Region, Text)],
     namedPoints' :: [(Located Name, Point)],
@@ -171,6 +174,7 @@ initial inUnit =
       highestClearance = Nothing,
       start' = Nothing,
       contours' = [],
+      letters' = Map.empty,
       operations' = [],
       readings' = [],
       namedPoints' = [],
@@ -221,9 +225,10 @@ step state (Located at s) = case s of
     keep (ContourElement.contour env name closure items) $ \c ->
       (define state name Dimension.none (ContourValue c)) {contours' = c : contours' state}
   Checked.Letters name place shapes ->
-    keep (Lettering.evaluate env name place shapes) $ \(outlines, r) ->
+    keep (Lettering.evaluate env (letters' state) name place shapes) $ \(known, outlines, r) ->
       let defined = define state name Dimension.none (RegionValue r)
-       in defined {contours' = reverse (outlines <> PlaneRegion.contoursOf r) <> contours' state}
+          drawn' = reverse (outlines <> PlaneRegion.contoursOf r)
+       in defined {contours' = drawn' <> contours' state, letters' = known}
   Checked.Assert assertion ->
     keep
       (Assertion.check at env assertion *> Assertion.sizes env assertion)

@@ -1,7 +1,8 @@
 -- | Evaluates texts in a font: the contours of the outlines of their letters, and the region that
--- they bound. The outlines of equal letters are evaluated once, and then moved to each letter.
+-- they bound. Equal letters, also those of several texts, are evaluated once, and then moved.
 module Part.Lettering
-  ( evaluate,
+  ( KnownLetters,
+    evaluate,
   )
 where
 
@@ -15,11 +16,13 @@ import Data.Foldable (foldlM)
 import Data.List (sortOn)
 import Data.List.NonEmpty (NonEmpty (..))
 import Data.List.NonEmpty qualified as NonEmpty
+import Data.Map.Strict (Map)
+import Data.Map.Strict qualified as Map
 import Data.Semigroup (sconcat)
 import Data.Vector qualified as Vector
 import Drawing.Drawing (PathPart (Bezier))
 import Drawing.PathPart qualified as PathPart
-import Font.TextOutline (LetterShape (..))
+import Font.TextOutline (GlyphName, LetterShape (..))
 import Font.TextOutline qualified as TextOutline
 import Geometry.ElementCarrier (ElementCarrier (..))
 import Geometry.MeasuredPolyarc qualified as MeasuredPolyarc
@@ -52,17 +55,26 @@ data LetterFrame = LetterFrame {anchor :: Point, along :: Vec, upward :: Vec}
 -- | A letter: the contours of its outlines, and the region that they bound.
 data EvaluatedLetter = EvaluatedLetter [Contour] PlaneRegion
 
--- | Evaluates a text. The contours of its outlines have hidden names; those of the region have the
--- name of the text.
+-- | Letters of earlier texts, about their origins, by their glyphs and the vectors along their lines.
+type KnownLetters = Map (GlyphName, Vec) EvaluatedLetter
+
+-- | Evaluates a text: all letters that are known then, the contours of its outlines, and their
+-- region. The contours of the outlines have hidden names; those of the region have the name of the
+-- text.
 evaluate ::
-  Environment -> Located Name -> TextPlace -> [LetterShape] -> Eval ([Contour], PlaneRegion)
-evaluate env name place shapes = do
+  Environment ->
+  KnownLetters ->
+  Located Name ->
+  TextPlace ->
+  [LetterShape] ->
+  Eval (KnownLetters, [Contour], PlaneRegion)
+evaluate env before name place shapes = do
   frame <- frameOf env place
-  letters <- concat <$> traverse (lettersOf name frame) shapes
+  (known, letters) <- foldlM (withShape name frame) (before, []) shapes
   let inOrder = map snd (sortOn fst letters)
       outlines = concat [contours | EvaluatedLetter contours _ <- inOrder]
   whole <- combined name Union [letter | EvaluatedLetter _ letter <- inOrder]
-  pure (zipWith numbered [1 ..] outlines, whole)
+  pure (known, zipWith numbered [1 ..] outlines, whole)
   where
     numbered k c = c {contourName = Located (region name) (hidden k)}
     hidden :: Int -> Name
@@ -79,24 +91,42 @@ frameOf env place = do
       unit = Vec.rotate (Rad turned)
   pure LetterFrame {anchor, along = unit (Vec.vec scale 0), upward = unit (Vec.vec 0 scale)}
 
--- | The letters of one shape, each with its region in the program.
-lettersOf :: Located Name -> LetterFrame -> LetterShape -> Eval [(Region, EvaluatedLetter)]
-lettersOf name frame (LetterShape letters outlines) = do
-  contours <- traverse (outlineOf name frame at . fst) outlines
-  Evaluation.spend at (sum (fmap (length . elements) contours))
-  letter <- filled name (NonEmpty.zip contours (fmap snd outlines))
-  traverse (placed (NonEmpty.toList contours) letter) (NonEmpty.toList letters)
+-- | Adds the letters of one shape, each with its region in the program.
+withShape ::
+  Located Name ->
+  LetterFrame ->
+  (KnownLetters, [(Region, EvaluatedLetter)]) ->
+  LetterShape ->
+  Eval (KnownLetters, [(Region, EvaluatedLetter)])
+withShape name frame (known, before) shape = do
+  letter <- maybe (letterOf name frame shape) pure (Map.lookup key known)
+  found <- traverse (placed name frame letter) (NonEmpty.toList (shapeLetters shape))
+  pure (Map.insert key letter known, found <> before)
   where
-    Located at _ = NonEmpty.head letters
-    placed contours letter (Located there (Mm x)) = do
-      let v = Vec.add (Value.offset (anchor frame)) (Vec.scale x (along frame))
-          move = movedTo there (Transformation.translation v)
-          moved = map move contours
-      Evaluation.spend there (length moved)
-      mapM_
-        (Value.within there . Vec.norm . Value.offset . Segment.end . segment)
-        (concatMap (NonEmpty.toList . elements) moved)
-      pure (there, EvaluatedLetter moved (PlaneRegion.mapContours move letter))
+    key = (shapeGlyph shape, along frame)
+
+-- | A letter about its origin.
+letterOf :: Located Name -> LetterFrame -> LetterShape -> Eval EvaluatedLetter
+letterOf name frame shape = do
+  contours <- traverse (outlineOf name frame at . fst) (shapeOutlines shape)
+  Evaluation.spend at (sum (fmap (length . elements) contours))
+  EvaluatedLetter (NonEmpty.toList contours)
+    <$> filled name (NonEmpty.zip contours (fmap snd (shapeOutlines shape)))
+  where
+    Located at _ = NonEmpty.head (shapeLetters shape)
+
+-- | A letter at its place on the line of a text. The contours of its outlines are moved when they
+-- are drawn.
+placed ::
+  Located Name -> LetterFrame -> EvaluatedLetter -> Located Mm -> Eval (Region, EvaluatedLetter)
+placed name frame (EvaluatedLetter contours letter) (Located at (Mm x)) = do
+  let move = movedTo name at (Transformation.translation v)
+      v = Vec.add (Value.offset (anchor frame)) (Vec.scale x (along frame))
+      letter' = PlaneRegion.mapContours move letter
+      ends = [Segment.end (segment e) | c <- PlaneRegion.contoursOf letter', e <- NonEmpty.toList (elements c)]
+  Evaluation.spend at (length ends)
+  mapM_ (Value.within at . Vec.norm . Value.offset) ends
+  pure (at, EvaluatedLetter (map move contours) letter')
 
 -- | The contour of an outline about the origin of its letter. @at@ is the region of the letter.
 outlineOf :: Located Name -> LetterFrame -> Region -> NonEmpty PathPart -> Eval Contour
@@ -131,12 +161,13 @@ combined :: Located Name -> BooleanOperation -> [PlaneRegion] -> Eval PlaneRegio
 combined name operation =
   RegionBuiltin.settled (region name) . PlaneRegion.combined name operation
 
--- | The image of a contour, at another place in the program. It stays the contour of its written
--- elements.
-movedTo :: Region -> Transformation -> Contour -> Contour
-movedTo at t c =
+-- | The image of a contour, at another place in the program, with another name. It stays the
+-- contour of its written elements.
+movedTo :: Located Name -> Region -> Transformation -> Contour -> Contour
+movedTo name at t c =
   c
-    { elements = fmap moved (elements c),
+    { contourName = name,
+      elements = fmap moved (elements c),
       breaks = map (Transformation.point t) (breaks c),
       writtenElements = map written (writtenElements c)
     }

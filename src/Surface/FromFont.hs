@@ -1,22 +1,31 @@
 -- | The shapes of the letters of a text in a font: outlines, and the depths that say which of them
 -- are holes.
 module Surface.FromFont
-  ( shapes,
+  ( KnownGlyphs,
+    shapes,
   )
 where
 
 import Base.Region (Located (..), Region (Region))
 import Base.Region qualified as Region
+import Control.Monad (join)
 import Data.Either (partitionEithers)
-import Data.List.NonEmpty (NonEmpty)
+import Data.List.NonEmpty (NonEmpty (..))
 import Data.List.NonEmpty qualified as NonEmpty
+import Data.Map.Lazy (Map)
+import Data.Map.Lazy qualified as Map
 import Data.Maybe (catMaybes, fromMaybe)
 import Data.Text (Text)
 import Data.Text qualified as Text
 import Drawing.Drawing (Entity (Entity), PathPart, Shape (Path))
 import Drawing.Filling qualified as Filling
 import Drawing.Outline (DrawnPart (..), Outline (..))
-import Font.TextOutline (GlyphPlace (..), LetterShape (..))
+import Font.TextOutline
+  ( FilledOutlines,
+    GlyphName (..),
+    GlyphPlace (..),
+    LetterShape (..),
+  )
 import Font.TextOutline qualified as TextOutline
 import Font.TrueType (FontFault, Glyph, GlyphRun (..))
 import Font.TrueType qualified as TrueType
@@ -24,11 +33,21 @@ import Geometry.Polyarc (Ends (Closed))
 import Surface.FontError (FontMistake (..))
 import Surface.Syntax (Lettering (..), TextAlignment (..), TextCourse (..))
 
--- | The shapes of the letters of a text in a font, or its mistakes. @file@ is the name of the font,
--- and @answer@ its glyphs of the text, or their fault.
+-- | The outlines of glyphs that earlier texts have. There are none if a glyph encloses nothing;
+-- Nothing if its outlines cross.
+type KnownGlyphs = Map GlyphName (Maybe (Maybe FilledOutlines))
+
+-- | The shapes of the letters of a text in a font, or its mistakes; and all glyphs that are known
+-- then. @path@ is the path of the font, @file@ its name, and @answer@ its glyphs of the text, or
+-- their fault.
 shapes ::
-  Located Text -> Lettering -> Either FontFault GlyphRun -> Either [FontMistake] [LetterShape]
-shapes file@(Located fileAt fileName) text answer
+  KnownGlyphs ->
+  FilePath ->
+  Located Text ->
+  Lettering ->
+  Either FontFault GlyphRun ->
+  Either [FontMistake] (KnownGlyphs, [LetterShape])
+shapes before path file@(Located fileAt fileName) text answer
   | Around circle _ <- course text = Left [RoundCircle (region circle)]
   | Text.length (value (lettered text)) > TrueType.mostCharacters =
     Left [LongText (region (lettered text)) (Text.length (value (lettered text)))]
@@ -36,28 +55,37 @@ shapes file@(Located fileAt fileName) text answer
     run <- either (Left . pure . BadFont fileAt fileName) Right answer
     glyphs <- complete file (lettered text) run
     height <- maybe (Left [NoCapitals fileAt fileName]) Right (capitalHeight run)
-    let found = TextOutline.shapes height TextOutline.capitals (share text) glyphs
-    case partitionEithers (map (uncurry (shape (lettered text))) found) of
-      ([], filled)
-        | all null filled -> Left [NothingToOutline (region (lettered text))]
-        | otherwise -> Right (concat filled)
+    let found =
+          [ (GlyphName path (Text.index (value (lettered text)) first), letters, outlines)
+            | (letters@(GlyphPlace first _ :| _), outlines) <-
+                TextOutline.shapes height TextOutline.capitals (share text) glyphs
+          ]
+        known = Map.union before (Map.fromList [(n, filled outlines) | (n, _, outlines) <- found])
+    case partitionEithers [shape (lettered text) known n letters | (n, letters, _) <- found] of
+      ([], made)
+        | null (catMaybes made) -> Left [NothingToOutline (region (lettered text))]
+        | otherwise -> Right (known, catMaybes made)
       (crossings, _) -> Left crossings
 
--- | The shape of equal letters, if they enclose anything, from their closed outlines.
+-- | The shape of equal letters, if they enclose anything.
 shape ::
   Located Text ->
+  KnownGlyphs ->
+  GlyphName ->
   NonEmpty GlyphPlace ->
-  NonEmpty (NonEmpty PathPart) ->
-  Either FontMistake [LetterShape]
-shape text letters outlines = case Filling.filled (map outlineOf (NonEmpty.toList outlines)) of
-  Left _ -> Left (CrossingGlyph (regionOf (NonEmpty.head letters)))
-  Right found ->
-    Right
-      [ LetterShape {shapeLetters = fmap (Located <$> regionOf <*> begin) letters, shapeOutlines}
-        | Just shapeOutlines <- [NonEmpty.nonEmpty [(fmap part (parts o), d) | (o, d) <- found]]
-      ]
+  Either FontMistake (Maybe LetterShape)
+shape text known shapeGlyph letters = case join (Map.lookup shapeGlyph known) of
+  Nothing -> Left (CrossingGlyph (regionOf (NonEmpty.head letters)))
+  Just found -> Right (fmap (LetterShape shapeGlyph (fmap (Located <$> regionOf <*> begin) letters)) found)
   where
     regionOf = characterRegion text . character
+
+-- | The outlines of a glyph that bound its area, with their depths.
+filled :: NonEmpty (NonEmpty PathPart) -> Maybe (Maybe FilledOutlines)
+filled outlines = case Filling.filled (map outlineOf (NonEmpty.toList outlines)) of
+  Left _ -> Nothing
+  Right found -> Just (NonEmpty.nonEmpty [(fmap part (parts o), depth) | (o, depth) <- found])
+  where
     outlineOf path =
       Outline Closed (fmap (DrawnPart (Entity 0 "" "" [] [] (Path Closed path))) path)
 

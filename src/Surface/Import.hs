@@ -117,6 +117,8 @@ data Progress = Progress
     drawings :: Map (FilePath, Maybe LengthUnit) (Maybe DrawingText),
     -- | the glyphs of the texts in fonts so far
     runs :: GlyphRuns,
+    -- | the outlines of these glyphs
+    outlined :: FromFont.KnownGlyphs,
     -- | the regions of the names of imported files and table files, with the paths of these files,
     -- the newest first
     named :: [(Region, Text)],
@@ -138,6 +140,7 @@ load reader path text = do
             noted = [],
             drawings = Map.empty,
             runs = Map.empty,
+            outlined = Map.empty,
             named = [],
             unitsFound = Map.empty
           }
@@ -251,9 +254,11 @@ fromFont reader chain name font@(Located at file) text = do
       Nothing <$ modify' (\p -> p {found = FileMissing at "font" file reason near : found p})
     Just (Right run) -> do
       modify' (\p -> p {runs = Map.insert (path, value (lettered text)) run (runs p)})
-      case FromFont.shapes font text run of
+      known <- gets outlined
+      case FromFont.shapes known path font text run of
         Left faults -> mistakes' faults
-        Right made -> pure (Just (DrawnText name font text made))
+        Right (known', made) ->
+          Just (DrawnText name font text made) <$ modify' (\p -> p {outlined = known'})
   where
     mistakes' faults = recorded (Converted (map InFont faults) [] Nothing)
 

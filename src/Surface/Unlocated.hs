@@ -40,7 +40,7 @@ lettering (Lettering text at height course alignment) =
       Around e side -> Around (expr e) (fmap here side)
 
 letterShape :: LetterShape -> LetterShape
-letterShape (LetterShape letters outlines) = LetterShape (fmap here letters) outlines
+letterShape s = s {shapeLetters = fmap here (shapeLetters s)}
 
 statement :: Statement_ -> Statement_
 statement s = case s of

@@ -21,6 +21,7 @@ import Frame.Frame (FrameProgram)
 import Frame.Frame qualified as Frame
 import Geometry.ArcFitting.PolyarcFit qualified as PolyarcFit
 import Geometry.Distance qualified as Distance
+import Geometry.Distance.Fast qualified as Fast
 import Geometry.Index.BoundingBox (BoundingBox)
 import Geometry.Index.BoundingBox qualified as BoundingBox
 import Geometry.Index.BoxTree (BoxTree)
@@ -236,7 +237,11 @@ beyond carved before m
       foldl'
         (\a b -> if fst b > fst a then b else a)
         (0, Segment.start (segment m))
-        [overlap (path, r0, r1) e | path <- paths, e <- near path]
+        [ overlap (path, r0, r1) e
+          | path <- paths,
+            e <- near path,
+            mayOverlap (allowed (setting carved)) (path, r0, r1) e
+        ]
 
 -- | The centre and the radius of the disc at the beginning and at the end of a motion.
 endDiscs :: Carving -> CutterMotion -> ((Point, Double), (Point, Double))
@@ -244,6 +249,31 @@ endDiscs c m =
   ((Segment.start (segment m), radiusAt c from), (Segment.end (segment m), radiusAt c to))
   where
     (from, to) = Motion.heights m
+
+-- | False only if the discs along a path, as for 'overlap', go beyond an edge by at most @most@, in
+-- mm. The result is exact for most edges that the discs touch.
+--
+-- The distance from a line changes evenly along a straight path. The distance from a circle around
+-- the path is a concave function, so that the discs go furthest beyond it at an end. For a circle
+-- beside the path, the distance from one of its tangents is a bound.
+mayOverlap :: Double -> (Segment, Double, Double) -> Segment -> Bool
+mayOverlap most (path, r0, r1) edge = case (path, edge) of
+  (Arc {}, _) -> max r0 r1 - Fast.apart path edge > limit
+  (Straight a b, Straight x y) ->
+    let n = Vec.left (Vec.unit (Vec.to x y))
+        (s0, s1) = (Vec.dot n (Vec.to x a), Vec.dot n (Vec.to x b))
+     in beside (abs s0) (abs s1) || s0 * s1 < 0
+  (Straight a b, Arc {start, centre = o})
+    | d0 <= big && d1 <= big -> beside (big - d0) (big - d1)
+    | otherwise -> s0 < 0 || s1 < 0 || beside s0 s1
+    where
+      Mm big = Segment.radius o start
+      (Mm d0, Mm d1) = (Vec.distance o a, Vec.distance o b)
+      u = Vec.unit (Vec.to o (Vec.interpolate 0.5 a b))
+      (s0, s1) = (Vec.dot u (Vec.to o a) - big, Vec.dot u (Vec.to o b) - big)
+  where
+    beside d0 d1 = not (r0 - d0 <= limit && r1 - d1 <= limit)
+    limit = most - Fast.unsure
 
 -- | The largest amount by which the discs along a path go beyond an edge, and the centre of the
 -- disc that does. The radius changes evenly along the path.
