@@ -37,6 +37,8 @@ data Setting = Setting
   { tip :: Mm,
     -- | the largest radius of the discs
     reach :: Mm,
+    -- | the way of the tool from the top of the part to the height of rapid moves, and back
+    lift :: Mm,
     -- | the smaller and the larger limit of deviations
     limits :: (Mm, Mm)
   }
@@ -44,19 +46,20 @@ data Setting = Setting
 
 -- | The areas of each of some V-carvings. Areas that are translated copies of each other, such as
 -- equal letters, are computed once.
-ofCarvings :: [Carving] -> (Carving -> [CarvedArea])
-ofCarvings carvings = \c -> [areaFor (settingOf c) loops | loops <- areasOf c]
+ofCarvings :: [Carving] -> [NonEmpty CarvedArea]
+ofCarvings carvings = TranslatedCopy.shared area moved (map asked carvings)
   where
-    areaFor =
-      TranslatedCopy.shared area moved [(settingOf c, loops) | c <- carvings, loops <- areasOf c]
-    areasOf c =
-      [fmap Part.polyarcOf (o :| holes) | (o, holes) <- NonEmpty.toList (Part.carvedAreas c)]
+    asked c =
+      fmap
+        (\(outline, holes) -> (settingOf c, fmap Part.polyarcOf (outline :| holes)))
+        (Part.carvedAreas c)
 
 settingOf :: Carving -> Setting
 settingOf c =
   Setting
     { tip = Part.carvingTip c,
       reach = Part.carvingReach c,
+      lift = times 2 (Part.carvingTravel c),
       limits = Part.deviationLimits (Part.carvingTolerance c)
     }
 
@@ -64,10 +67,11 @@ settingOf c =
 area :: Setting -> NonEmpty Polyarc -> CarvedArea
 area setting loops =
   CarvedArea
-    { chains = CarvingChain.chains (concatMap (CarvingChain.deepParts (tip setting)) axis),
+    { chains = CarvingChain.chains (lift setting) deep,
       rests = restsOf setting axis
     }
   where
+    deep = concatMap (CarvingChain.deepParts (tip setting)) axis
     axis =
       MedialAxis.branches
         (Mm (Tolerance.axisShare * limit))

@@ -2,14 +2,15 @@
 --
 -- The ends of the branches are the nodes of a graph. A chain begins where only one branch ends, if
 -- there is such a node, and goes on along branches that are not yet carved for as long as there are
--- any.
+-- any. Where several are left, it first carves a short branch to a free end, there and back, such
+-- as a branch into a corner: that is quicker than to lift the tool for it.
 module Toolpath.CarvingChain
   ( chains,
     deepParts,
   )
 where
 
-import Base.Quantity (Mm (..), minus, over)
+import Base.Quantity (Mm (..), minus, over, total)
 import Data.IntMap.Strict (IntMap)
 import Data.IntMap.Strict qualified as IntMap
 import Data.IntSet (IntSet)
@@ -55,9 +56,9 @@ deepParts tip branch = collect (map cut (NonEmpty.toList branch))
       Level _ _ -> False
 
 -- | The branches of a medial axis in chains. A branch without length is a chain by itself, if no
--- other branch ends there.
-chains :: [Branch] -> [NonEmpty Branch]
-chains found = walks (freeEnds <> map fst (IntMap.toList from)) from IntSet.empty
+-- other branch ends there. Branches up to the length @most@ are carved there and back.
+chains :: Mm -> [Branch] -> [NonEmpty Branch]
+chains most found = walks (freeEnds <> map fst (IntMap.toList from)) graph IntSet.empty
   where
     (_, joined) = mapAccumL withNodes (Nodes 0 Map.empty) found
     isBranch (_, _, b) = any hasLength (NonEmpty.toList b)
@@ -75,28 +76,49 @@ chains found = walks (freeEnds <> map fst (IntMap.toList from)) from IntSet.empt
             ]
         )
     freeEnds = [n | (n, [_]) <- IntMap.toList from]
+    graph = fmap (map outward) from
+    outward (k, next, b) =
+      Outward {edge = k, next, along = b, returns = isFree next && branchLength b <= most}
+    isFree n = case IntMap.lookup n from of
+      Just [_] -> True
+      _ -> False
 
--- | Chains from the nodes @starts@, in their order. @from@ has the branches at each node: the
--- number of the branch, the node at its other end, and the branch in the direction away from the
--- node. The branches with the numbers @done@ are left out.
-walks :: [Int] -> IntMap [(Int, Int, Branch)] -> IntSet -> [NonEmpty Branch]
-walks starts from done = case starts of
+-- | A branch at a node: its number, the node at its other end, the branch in the direction away
+-- from the node, and true if it is short and leads to a free end.
+data Outward = Outward {edge :: Int, next :: Int, along :: Branch, returns :: Bool}
+
+-- | Chains from the nodes @starts@, in their order. @graph@ has the branches at each node. The
+-- branches with the numbers @done@ are left out.
+walks :: [Int] -> IntMap [Outward] -> IntSet -> [NonEmpty Branch]
+walks starts graph done = case starts of
   [] -> []
   n : more -> case walk n done of
-    ([], _) -> walks more from done
-    (b : bs, after) -> (b :| bs) : walks starts from after
+    ([], _) -> walks more graph done
+    (b : bs, after) -> (b :| bs) : walks starts graph after
   where
     walk n visited =
-      case [j | j@(k, _, _) <- IntMap.findWithDefault [] n from, not (IntSet.member k visited)] of
+      case [o | o <- IntMap.findWithDefault [] n graph, not (IntSet.member (edge o) visited)] of
         [] -> ([], visited)
-        (k, next, b) : _ ->
-          let (bs, after) = walk next (IntSet.insert k visited) in (b : bs, after)
+        o : others
+          | short : _ <- filter returns (o : others),
+            not (null others) ->
+            onto [along short, backwards (along short)] (walk n (with short visited))
+          | otherwise -> onto [along o] (walk (next o) (with o visited))
+    with o = IntSet.insert (edge o)
+    onto bs (more, visited) = (bs <> more, visited)
 
 -- | True for a stretch with a length.
 hasLength :: Stretch -> Bool
 hasLength s = case s of
   Sloping d e -> discCentre d /= discCentre e
   Level g _ -> Segment.length g > Mm 0
+
+branchLength :: Branch -> Mm
+branchLength = total . map lengthOf . NonEmpty.toList
+  where
+    lengthOf s = case s of
+      Sloping d e -> Vec.distance (discCentre d) (discCentre e)
+      Level g _ -> Segment.length g
 
 -- | The count of the known nodes, and the nodes by the cells of a grid.
 data Nodes = Nodes Int (Map (Int, Int) [(Int, Disc)])

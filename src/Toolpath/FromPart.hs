@@ -30,8 +30,7 @@ import Geometry.ElementCarrier (ElementCarrier (..))
 import Geometry.Tolerance qualified as Tolerance
 import Geometry.Vec qualified as Vec
 import Part.Part
-  ( Carving,
-    Contour (elements),
+  ( Contour (elements),
     Milling (contour),
     Operation (..),
     Part,
@@ -159,8 +158,8 @@ data State = State
     toolRadius :: Mm,
     -- | position of the tool
     at :: SpacePoint,
-    -- | the areas of the V-carvings of the program
-    carvedAreas :: Carving -> [CarvedArea]
+    -- | the areas of the V-carvings that are still to come
+    carvedAreas :: [NonEmpty CarvedArea]
   }
 
 -- | The state before the first operation, given the start. Without a cutter the radius is 0.
@@ -176,8 +175,8 @@ firstState part begin =
 -- | The state after an operation; @bs@ are the blocks of the operation. An operation that fails has
 -- no blocks, and does not move the tool.
 stateAfter :: Operation -> [Block] -> State -> State
-stateAfter operation bs state@State {number, toolRadius, at} =
-  state
+stateAfter operation bs State {number, toolRadius, at, carvedAreas} =
+  State
     { number = case operation of
         Mill _ -> number + 1
         Pocket _ -> number + 1
@@ -185,7 +184,10 @@ stateAfter operation bs state@State {number, toolRadius, at} =
       toolRadius = case operation of
         Command (Located _ (Part.ChangeTool _ c)) -> Part.cutterRadius c
         _ -> toolRadius,
-      at = LinkingMove.endPosition at (concatMap Toolpath.moves bs)
+      at = LinkingMove.endPosition at (concatMap Toolpath.moves bs),
+      carvedAreas = case operation of
+        Carve _ -> drop 1 carvedAreas
+        _ -> carvedAreas
     }
 
 -- | The blocks of operations in order, and the errors of those that fail.
@@ -204,7 +206,9 @@ blocksOf State {number, toolRadius, at, carvedAreas} operation = case operation 
      in Right [Travelling toolRadius ends (LinkingMove.straightMoves at ends)]
   Command c -> Right [Commanding c]
   Drill d -> Right [Holing d (DrillMove.moves at d)]
-  Carve c -> (\(ms, rest) -> [Carved c ms rest]) <$> CarvingPath.moves (carvedAreas (value c)) at c
+  Carve c ->
+    (\(ms, rest) -> [Carved c ms rest])
+      <$> CarvingPath.moves (concatMap NonEmpty.toList (take 1 carvedAreas)) at c
   Pocket job -> PocketMove.blocks number at job
   Mill (Located region given) -> do
     possible region given

@@ -79,20 +79,17 @@ carvingFindings ::
   [Finding]
 carvingFindings machine path program isAligned toolsIn motions =
   concat
-    [ findingsOf (carvedOf machine areaFor region c) (filter isLow (ofBlock n tool c))
-      | (n, tool, Toolpath.Carved (Located region c) _ _) <-
-          zip3 [0 ..] (Toolpath.toolIndices blocks) blocks
+    [ findingsOf (carvedOf machine region c areas) (filter isLow (ofBlock n tool c))
+      | ((n, tool, region, c), areas) <- zip carvings checked
     ]
   where
     blocks = Toolpath.blocks path
-    areaFor =
-      TranslatedCopy.shared
-        checkedArea
-        moved
-        [ (settingOf machine c, a)
-          | Toolpath.Carved (Located _ c) _ _ <- blocks,
-            a <- NonEmpty.toList (areasOf c)
-        ]
+    checked = checkedAreas machine [c | (_, _, _, c) <- carvings]
+    carvings =
+      [ (n, tool, region, c)
+        | (n, tool, Toolpath.Carved (Located region c) _ _) <-
+            zip3 [0 ..] (Toolpath.toolIndices blocks) blocks
+      ]
     isLow m = uncurry min (Motion.heights m) < Mm 0
     ofBlock n tool c
       | isAligned = IntMap.findWithDefault [] n aligned
@@ -149,6 +146,11 @@ settingOf machine c =
 areasOf :: Carving -> NonEmpty (NonEmpty Polyarc)
 areasOf = fmap (\(outline, holes) -> fmap Part.polyarcOf (outline :| holes)) . Part.carvedAreas
 
+-- | The areas of each of some V-carvings. Those that are translated copies are computed once.
+checkedAreas :: Machine -> [Carving] -> [NonEmpty CheckedArea]
+checkedAreas machine carvings =
+  TranslatedCopy.shared checkedArea moved [(settingOf machine c,) <$> areasOf c | c <- carvings]
+
 -- | The area with some contours.
 checkedArea :: Setting -> NonEmpty Polyarc -> CheckedArea
 checkedArea setting contours = CheckedArea segments (discsOf setting segments)
@@ -163,20 +165,17 @@ moved v (CheckedArea segments discs) =
     (fmap (Transformation.segment (Transformation.translation v)) segments)
     [EdgeDisc (Vec.shift v p) (Vec.shift v c) r | EdgeDisc p c r <- discs]
 
-carvedOf ::
-  Machine -> (Setting -> NonEmpty Polyarc -> CheckedArea) -> Region -> Carving -> Carved
-carvedOf machine areaFor statement carving =
+carvedOf :: Machine -> Region -> Carving -> NonEmpty CheckedArea -> Carved
+carvedOf machine statement carving found =
   Carved
     { statement,
       carving,
-      setting,
+      setting = settingOf machine carving,
       areas = BoxTree.index fst [(boxAround ss, treeOf ss) | ss <- NonEmpty.toList segments],
       edges = treeOf (sconcat segments),
       discs = concat [ds | CheckedArea _ ds <- NonEmpty.toList found]
     }
   where
-    setting = settingOf machine carving
-    found = fmap (areaFor setting) (areasOf carving)
     segments = fmap (\(CheckedArea ss _) -> ss) found
 
 treeOf :: NonEmpty Segment -> BoxTree Segment

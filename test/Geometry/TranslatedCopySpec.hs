@@ -21,19 +21,23 @@ import Test.QuickCheck
 spec :: Spec
 spec = do
   prop "a copy has the value of the function (catches copies that stay where the first one is)" $
-    forAll groups $ \known -> forAll place $ \v -> forAll (elements known) $ \(k, loops) ->
-      let value = TranslatedCopy.shared middles (map . Vec.shift) known
-          copy = moved v loops
+    forAll groups $ \known -> forAll place $ \v ->
+      let others = [fmap (change v) g | g <- known, change <- [copy, turnedCopy, further]]
+          answers = drop (length known) (sharedBy Vec.shift (known <> others))
        in conjoin
-            [ near (value k copy) (middles k copy),
-              near (value (k + 1) copy) (middles (k + 1) copy),
-              near (value k (turned copy)) (middles k (turned copy))
+            [ near value (middles k loops)
+              | (asked, found) <- zip others answers,
+                ((k, loops), value) <- zip (NonEmpty.toList asked) (NonEmpty.toList found)
             ]
   prop "a copy takes the value of the first one, without computing its own" $
     forAll groups $ \known -> forAll place $ \v ->
-      let value = TranslatedCopy.shared middles (const id) known
-       in conjoin [value k (moved v loops) === value k loops | (k, loops) <- known]
+      let both = sharedBy (const id) (known <> map (fmap (copy v)) known)
+       in drop (length known) both === take (length known) both
   where
+    sharedBy move = TranslatedCopy.shared middles (map . move)
+    copy v (k, loops) = (k, moved v loops)
+    turnedCopy v (k, loops) = (k, turned (moved v loops))
+    further v (k, loops) = (k + 1, moved v loops)
     near a b =
       counterexample (show (a, b)) $
         length a == length b && and (zipWith (\p q -> Vec.distance p q <= Mm 1e-6) a b)
@@ -52,8 +56,11 @@ turned :: NonEmpty Polyarc -> NonEmpty Polyarc
 turned = fmap (Transformation.polyarc (Transformation.rotation (Rad pi) (Vec.point 0 0)))
 
 -- | Groups of contours, each with a number.
-groups :: Gen [(Int, NonEmpty Polyarc)]
-groups = choose (1, 4) >>= \n -> vectorOf n ((,) <$> choose (1, 2) <*> area)
+groups :: Gen [NonEmpty (Int, NonEmpty Polyarc)]
+groups = choose (1, 3) >>= \n -> vectorOf n group
+  where
+    group = choose (1, 3) >>= \n -> NonEmpty.fromList <$> vectorOf n numbered
+    numbered = (,) <$> choose (1, 2) <*> area
 
 place :: Gen Vec.Vec
 place = Vec.vec <$> choose (-1000, 1000) <*> choose (-1000, 1000)
