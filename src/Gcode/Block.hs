@@ -136,7 +136,10 @@ signFault :: Dialect -> Int -> Text -> Maybe Fault
 signFault dialect n line
   | Just at <- columnOf (== '\r') line = Just (Fault n at LoneReturn)
   | otherwise = case dialect of
-    LinuxCnc -> Fault n 1 ActiveComment <$ find isActive (commentsOf line)
+    LinuxCnc
+      | Text.any (`elem` ("(;" :: String)) line ->
+        Fault n 1 ActiveComment <$ find isActive (commentsOf line)
+      | otherwise -> Nothing
     Grbl -> character RealTimeCharacter isRealTime line <|> character OtherMeaning (== '%') bare
     Marlin -> character OtherMeaning isForeign (Text.takeWhile (/= ';') line)
     Fanuc
@@ -183,30 +186,31 @@ wordsOf n line = go 1 line
         | isAsciiUpper c || isAsciiLower c -> case numberFrom (Text.stripStart rest) of
           Nothing -> Left (Fault n at (NumberMissing (toUpper c)))
           Just (Left ()) -> Left (Fault n at NumberTooLong)
-          Just (Right (number, after)) -> do
-            let taken = Text.length rest - Text.length after
-            (ws, cs) <- go (at + 1 + taken) after
-            let hasPoint = "." `Text.isInfixOf` Text.take taken rest
+          Just (Right (number, hasPoint, after)) -> do
+            (ws, cs) <- go (at + 1 + Text.length rest - Text.length after) after
             Right (GcodeWord (toUpper c) number at hasPoint : ws, cs)
         | otherwise -> Left (Fault n at (StrayCharacter c))
 
--- | Number at the beginning of a text, and the text behind it. Nothing if no number begins there;
--- Left if it has too many digits.
-numberFrom :: Text -> Maybe (Either () (GcodeNumber, Text))
+-- | Number at the beginning of a text, true if it has a point, and the text behind it. Nothing if
+-- no number begins there; Left if it has too many digits.
+numberFrom :: Text -> Maybe (Either () (GcodeNumber, Bool, Text))
 numberFrom text
   | Text.null whole && Text.null fraction = Nothing
-  | Text.length whole > mostWhole || Text.length fraction > mostDecimals = Just (Left ())
-  | otherwise = Just (Right (GcodeNumber (sign * value) (Text.length fraction), rest))
+  | Text.length whole > mostWhole || decimals > mostDecimals = Just (Left ())
+  | otherwise = Just (Right (GcodeNumber (sign * value) decimals, hasPoint, rest))
   where
+    decimals = Text.length fraction
     (sign, unsigned) = case Text.uncons text of
       Just ('-', more) -> (-1, more)
       Just ('+', more) -> (1, more)
       _ -> (1, text)
     (whole, afterWhole) = Text.span isDigit unsigned
-    (fraction, rest) = case Text.uncons afterWhole of
-      Just ('.', more) -> Text.span isDigit more
-      _ -> ("", afterWhole)
-    value = Text.foldl' (\v c -> 10 * v + fromEnum c - fromEnum '0') 0 (whole <> fraction)
+    hasPoint = "." `Text.isPrefixOf` afterWhole
+    (fraction, rest)
+      | hasPoint = Text.span isDigit (Text.drop 1 afterWhole)
+      | otherwise = ("", afterWhole)
+    value = digitsOf (digitsOf 0 whole) fraction
+    digitsOf = Text.foldl' (\v c -> 10 * v + fromEnum c - fromEnum '0')
 
 -- | Largest count of digits before the point, and after it.
 mostWhole, mostDecimals :: Int

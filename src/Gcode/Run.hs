@@ -39,6 +39,8 @@ data Running = Running
   { modal :: ModalState,
     place :: ToolPlace,
     isEnded :: Bool,
+    -- | number of the last line
+    reached :: Int,
     -- | the sizes of the canned cycle in force that stay for its next lines, by their letters:
     -- lengths in picometres, and the time in seconds
     cycleSizes :: [(Char, GcodeNumber)],
@@ -56,8 +58,8 @@ run form tool first text = do
   when (null lines') (Left (Fault first 1 NoWords))
   checkLengths form first text
   (final, steps) <- foldM next (begin, []) lines'
-  let end = [Step (lineNumber (last lines')) (modal final) FileEnds | not (isEnded final)]
-  pure (concat (reverse (end : steps)))
+  let end = [Step (reached final) (modal final) FileEnds | not (isEnded final)]
+  pure (reverse (end <> steps))
   where
     state0 = initial (dialect form)
     begin =
@@ -65,12 +67,15 @@ run form tool first text = do
         { modal = state0 {toolInSpindle = maybe Unset (SetAt 0) tool},
           place = ToolPlace Anywhere Anywhere Anywhere,
           isEnded = False,
+          reached = first,
           cycleSizes = [],
           cycleLevel = Nothing
         }
     next (now, done) b = do
       (now', steps) <- runBlock form now b
-      pure (now', steps : done)
+      let after = foldl' (\before step -> step `seq` step : before) done steps
+      -- Steps that wait to be evaluated would keep their lines in memory.
+      after `seq` pure (now' {reached = lineNumber b}, after)
 
 -- | Refuses the name of a program behind the first words of a file: another program begins there.
 checkNames :: [GcodeBlock] -> Either Fault ()
@@ -112,21 +117,23 @@ runBlock form now b = do
 
 -- | The modes that are set before a tool change: feed mode, feed, speed and selected tool.
 modesBefore :: Dialect -> Sorted -> ModalState -> Either Fault ModalState
-modesBefore dialect' s m = do
-  tool <- traverse whole (given 'T' s)
-  when (960 `elem` gCodes s && isNothing (given 'S' s)) $
-    faultAt (block s) 1 (WordMissing "S" "G96")
-  pure
-    m
-      { feedMode = choose (feedMode m) [(930, InverseTime), (940, PerMinute), (950, PerTurn)],
-        speed = maybe (speed m) (SetAt n . decimal) (given 'S' s),
-        speedMode = choose (speedMode m) [(960, ConstantCutting limit), (970, ConstantTurns)],
-        -- The control starts the spindle before it sets the units of the same line.
-        speedUnits = if isOfSpeed then units m else speedUnits m,
-        selectedTool = maybe (selectedTool m) (SetAt n) tool,
-        units = newUnits,
-        feed = feedAfter
-      }
+modesBefore dialect' s m
+  | onlyMoves s = Right m
+  | otherwise = do
+    tool <- traverse whole (given 'T' s)
+    when (960 `elem` gCodes s && isNothing (given 'S' s)) $
+      faultAt (block s) 1 (WordMissing "S" "G96")
+    pure
+      m
+        { feedMode = choose (feedMode m) [(930, InverseTime), (940, PerMinute), (950, PerTurn)],
+          speed = maybe (speed m) (SetAt n . decimal) (given 'S' s),
+          speedMode = choose (speedMode m) [(960, ConstantCutting limit), (970, ConstantTurns)],
+          -- The control starts the spindle before it sets the units of the same line.
+          speedUnits = if isOfSpeed then units m else speedUnits m,
+          selectedTool = maybe (selectedTool m) (SetAt n) tool,
+          units = newUnits,
+          feed = feedAfter
+        }
   where
     newUnits = choose (units m) [(200, Inches), (210, Millimetres)]
     -- LinuxCNC takes F before the units of the same line, and its words for the kind of feed set
@@ -151,6 +158,13 @@ modesBefore dialect' s m = do
         | t >= 0 -> Right t
         | otherwise -> faultAt (block s) 1 (NegativeNumber "T")
       Nothing -> faultAt (block s) 1 (NotWhole "T")
+
+-- | True for a line that changes no mode but the kind of motion. Most lines are like this.
+onlyMoves :: Sorted -> Bool
+onlyMoves s =
+  null (mCodes s)
+    && all (`elem` [0, 10, 20, 30]) (gCodes s)
+    && not (any ((`elem` ("FST" :: String)) . letter) (others s))
 
 -- | Part of the state after a line with these codes: the value of the code that it has, else the
 -- value before.
@@ -186,10 +200,14 @@ toolChange form s now
 -- | The modes that are set after a tool change and before the motion. A change of the zero of the
 -- work coordinates makes the position unknown.
 modesBehind :: ProgramForm -> Sorted -> Running -> Running
-modesBehind form s now = now {modal = changed, place = placeAfter form m changed (place now)}
+modesBehind form s now
+  | onlyMoves s =
+    if valueOf mode == valueOf (motionMode m) then now else now {modal = m {motionMode = mode}}
+  | otherwise = now {modal = changed, place = placeAfter form m changed (place now)}
   where
     n = lineNumber (block s)
     m = modal now
+    mode = motionAfter s m
     choose = chosen n (gCodes s)
     chooseM = chosen n (mCodes s)
     changed =
@@ -211,7 +229,7 @@ modesBehind form s now = now {modal = changed, place = placeAfter form m changed
           distances = choose (distances m) [(900, Absolute), (910, Incremental)],
           returnsToPlane = choose (returnsToPlane m) [(980, False), (990, True)],
           arcCentres = choose (arcCentres m) [(901, Absolute), (911, Incremental)],
-          motionMode = motionAfter s m
+          motionMode = mode
         }
 
 -- | The sizes of canned cycles after a line that follows the state @before@: those of another cycle

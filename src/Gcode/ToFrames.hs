@@ -11,6 +11,7 @@ module Gcode.ToFrames
   ( GcodeReading (..),
     FileSetting (..),
     ReadFrame (..),
+    inPulses,
     reading,
   )
 where
@@ -80,6 +81,8 @@ data Whereabouts
 -- | Facts about a program that are the same for all actions of its files.
 data FileSetting = FileSetting
   { machine :: Machine,
+    -- | 'inPulses' of the machine
+    pulsesAt :: ToolPlace -> Maybe (Pulses3, Double),
     -- | height in pulses from which on the tool is above everything; Nothing if no height in work
     -- coordinates is
     level :: Maybe Pulses,
@@ -169,7 +172,7 @@ travelled setting@FileSetting {machine, level} c step travel = case centreAt (to
       let (f, off) = frameOf machine step (centred travel) (here c') target
        in addMotion (line step) (withCommands setting step (losing off c')) f
     tip = fromMaybe 0 (valueOf (toolInSpindle (state step)) >>= (`Map.lookup` tips setting))
-    centreAt place = first (subtract tip) <$> inPulses machine place
+    centreAt place = first (subtract tip) <$> pulsesAt setting place
     centred t = t {about = fmap (shiftedBy machine tip) (about t)}
 
 -- | True at the retract height, or at an unknown position.
@@ -328,8 +331,8 @@ frameOf machine step travel begin target = case mode travel of
     feedCode = feedCodeOf machine (state step)
     centreFrom (i, j) =
       let Pulses3 x y _ = begin
-          (cx, dx) = nearest machine X i
-          (cy, dy) = nearest machine Y j
+          (cx, dx) = nearest (pulseOf machine X) i
+          (cy, dy) = nearest (pulseOf machine Y) j
        in (Pulses2 (cx - x) (cy - y), sqrt (dx * dx + dy * dy))
 
 -- | Feed code of the state.
@@ -348,31 +351,33 @@ planeOf machine = case letterOf machine X of
   _ -> PlaneXY
 
 -- | Position in pulses along the axes of the part, and its distance in mm from the position itself.
--- Nothing if a coordinate is not known.
+-- Nothing if a coordinate is not known. The axes of a machine are looked up once for all positions.
 inPulses :: Machine -> ToolPlace -> Maybe (Pulses3, Double)
-inPulses machine place = do
-  (x, dx) <- along X
-  (y, dy) <- along Y
-  (z, dz) <- along Z
+inPulses machine = \place -> do
+  (x, dx) <- alongX place
+  (y, dy) <- alongY place
+  (z, dz) <- alongZ place
   pure (Pulses3 x y z, sqrt (dx * dx + dy * dy + dz * dz))
   where
+    (alongX, alongY, alongZ) = (along X, along Y, along Z)
     along axis
-      | isNothing (Machine.wordFor machine (Along axis)) = Just (0, 0)
-      | otherwise = case coordinate (letterOf machine axis) of
-        At p -> Just (nearest machine axis p)
-        Retracted -> Nothing
-        InMachine _ -> Nothing
-        Anywhere -> Nothing
-    coordinate c = case c of
-      'X' -> placeX place
-      'Y' -> placeY place
-      _ -> placeZ place
+      | isNothing (Machine.wordFor machine (Along axis)) = const (Just (0, 0))
+      | otherwise =
+        let (coordinate, pulse) = (coordinateBy (letterOf machine axis), pulseOf machine axis)
+         in \place -> case coordinate place of
+              At p -> Just (nearest pulse p)
+              Retracted -> Nothing
+              InMachine _ -> Nothing
+              Anywhere -> Nothing
+    coordinateBy c = case c of
+      'X' -> placeX
+      'Y' -> placeY
+      _ -> placeZ
 
--- | Nearest pulse of an axis, and the distance from it in mm.
-nearest :: Machine -> Axis -> Int -> (Pulses, Double)
-nearest machine axis p = (Pulses n, abs (picometres (p - n * pulse)))
+-- | Nearest pulse, for the size of pulses in picometres, and the distance from it in mm.
+nearest :: Int -> Int -> (Pulses, Double)
+nearest pulse p = (Pulses n, abs (picometres (p - n * pulse)))
   where
-    pulse = pulseOf machine axis
     n = (2 * p + pulse) `div` (2 * pulse)
 
 -- | Size of a pulse of an axis in picometres.

@@ -82,12 +82,12 @@ scaledText machine content' (Pulses n) = case Machine.wordFor machine content' o
 -- | Number with a count of decimals, from its value in units of the last decimal.
 decimalText :: Int -> Int -> Text
 decimalText count n
-  | count == 0 = sign <> padded
-  | otherwise = sign <> whole <> "." <> fraction
+  | count == 0 = sign <> Decimal.whole (abs n)
+  | otherwise = Text.concat [sign, Decimal.whole whole, ".", fraction]
   where
     sign = if n < 0 then "-" else ""
-    padded = Text.justifyRight (count + 1) '0' (Decimal.whole (abs n))
-    (whole, fraction) = Text.splitAt (Text.length padded - count) padded
+    (whole, behind) = abs n `quotRem` (10 ^ count)
+    fraction = Text.justifyRight count '0' (Decimal.whole behind)
 
 -- | Lines with the numbers that the description asks for.
 numbered :: ProgramForm -> [Text] -> [Text]
