@@ -111,7 +111,10 @@ fromVec (Vec x y) = V2 x y
 
 -- | The image of a point.
 point :: Transformation -> Point -> Point
-point t p = let V2 x y = apply t (fromPoint p) in Vec.point x y
+point t p = Vec.point (a * Vec.x p + b * Vec.y p + dx) (c * Vec.x p + d * Vec.y p + dy)
+  where
+    V2 (V2 a b) (V2 c d) = matrix t
+    V2 dx dy = displacement t
 
 -- | The image of a line. It leads from the image of the line's first point to that of the second.
 line :: Transformation -> Line -> Line

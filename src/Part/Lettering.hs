@@ -55,7 +55,8 @@ data LetterFrame = LetterFrame {anchor :: Point, along :: Vec, upward :: Vec}
 -- | A letter: the contours of its outlines, and the region that they bound.
 data EvaluatedLetter = EvaluatedLetter [Contour] PlaneRegion
 
--- | Letters of earlier texts, about their origins, by their glyphs and the vectors along their lines.
+-- | Letters of earlier texts, about their origins, by their glyphs and the vectors along their
+-- lines.
 type KnownLetters = Map (GlyphName, Vec) EvaluatedLetter
 
 -- | Evaluates a text: all letters that are known then, the contours of its outlines, and their
@@ -123,9 +124,9 @@ placed name frame (EvaluatedLetter contours letter) (Located at (Mm x)) = do
   let move = movedTo name at (Transformation.translation v)
       v = Vec.add (Value.offset (anchor frame)) (Vec.scale x (along frame))
       letter' = PlaneRegion.mapContours move letter
-      ends = [Segment.end (segment e) | c <- PlaneRegion.contoursOf letter', e <- NonEmpty.toList (elements c)]
-  Evaluation.spend at (length ends)
-  mapM_ (Value.within at . Vec.norm . Value.offset) ends
+      elements' = concatMap (NonEmpty.toList . elements) (PlaneRegion.contoursOf letter')
+  Evaluation.spend at (length elements')
+  mapM_ (Value.within at . Vec.norm . Value.offset . Segment.end . segment) elements'
   pure (at, EvaluatedLetter (map move contours) letter')
 
 -- | The contour of an outline about the origin of its letter. @at@ is the region of the letter.

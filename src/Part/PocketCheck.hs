@@ -43,7 +43,9 @@ misfits cutter outline islands = case filter isOpen numbered of
     isOpen (_, n) = ends (contour n) == Open
     isInOutline = WindingNumber.encloses (Part.polyarcOf (contour outline))
     boxes = BoxTree.index (boxOf . snd) (drop 1 numbered)
-    meetings = nubBy (\(i, j, _) (k, l, _) -> (i, j) == (k, l)) (crossings numbered)
+    meetings
+      | null islands = []
+      | otherwise = nubBy (\(i, j, _) (k, l, _) -> (i, j) == (k, l)) (crossings numbered)
     meets (i, j, p) =
       let (a, b) = (named j, named i)
           places = (definition a, definition b)

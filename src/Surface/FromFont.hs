@@ -76,8 +76,9 @@ shape ::
   Either FontMistake (Maybe LetterShape)
 shape text known shapeGlyph letters = case join (Map.lookup shapeGlyph known) of
   Nothing -> Left (CrossingGlyph (regionOf (NonEmpty.head letters)))
-  Just found -> Right (fmap (LetterShape shapeGlyph (fmap (Located <$> regionOf <*> begin) letters)) found)
+  Just found -> Right (LetterShape shapeGlyph (fmap placed letters) <$> found)
   where
+    placed g = Located (regionOf g) (begin g)
     regionOf = characterRegion text . character
 
 -- | The outlines of a glyph that bound its area, with their depths.

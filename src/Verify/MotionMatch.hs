@@ -204,8 +204,9 @@ statesAfter machine items m states =
     ]
   where
     at = positionOf machine (from m)
+    samples = samplesOf machine m
     madeAfter i before item = case item of
-      Single r -> fractionAfter machine r m before
+      Single r -> fractionAfter machine r samples before
       Several g
         | includes g m && (IntMap.member i states || number m <= latestBegin g) -> Just 1
         | otherwise -> Nothing
@@ -255,11 +256,11 @@ isMade machine r (Position p z) share =
     long = lengthOf r
     largest = plus (slack r) (Machine.resolutionOf machine Z)
 
--- | Largest fraction of a move that is made after the motion @m@, if it was @share@ before. Nothing
--- if the motion does not run along the move in its direction. Rounding may lead back from the
--- furthest position, by no more than the 'slack' of the move.
-fractionAfter :: Machine -> RequiredMove -> Motion -> Double -> Maybe Double
-fractionAfter machine r m share = foldM onwards share (samplesOf machine m)
+-- | Largest fraction of a move that is made after a motion with these samples, if it was @share@
+-- before. Nothing if the motion does not run along the move in its direction. Rounding may lead
+-- back from the furthest position, by no more than the 'slack' of the move.
+fractionAfter :: Machine -> RequiredMove -> [Position] -> Double -> Maybe Double
+fractionAfter machine r samples share = foldM onwards share samples
   where
     onwards before at@(Position p z)
       | Vec.distance p (Segment.at t (path r)) <= sideways
