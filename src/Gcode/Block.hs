@@ -20,6 +20,7 @@ import Base.Decimal qualified as Decimal
 import Control.Applicative ((<|>))
 import Data.Char (isAsciiLower, isAsciiUpper, isDigit, isSpace, toUpper)
 import Data.List (find)
+import Data.Maybe (mapMaybe)
 import Data.Text (Text)
 import Data.Text qualified as Text
 import Machine.ProgramForm (Dialect (..))
@@ -107,12 +108,12 @@ data FaultReason
     BehindEnd
   deriving stock (Eq, Show)
 
--- | Lines of a file, numbered from @first@ on; a fault for the first line that cannot be divided
--- into words. A line that consists of a percent sign begins the program; a second one ends it, and
--- what follows is not read.
-blocks :: Dialect -> Int -> Text -> Either Fault [GcodeBlock]
+-- | Lines of a file with words or comments, numbered from @first@ on; a fault for a line that
+-- cannot be divided into words. A line that consists of a percent sign begins the program; a second
+-- one ends it, and what follows is not read. The list is made as it is used.
+blocks :: Dialect -> Int -> Text -> [Either Fault GcodeBlock]
 blocks dialect first file =
-  concat <$> traverse block (upToEnd False (zip [first ..] (map bare (Text.lines file))))
+  mapMaybe block (upToEnd False (zip [first ..] (map bare (Text.lines file))))
   where
     bare = Text.dropWhileEnd (== '\r')
     hasPercents = dialect `elem` [LinuxCnc, Fanuc]
@@ -122,10 +123,11 @@ blocks dialect first file =
         | hasPercents && Text.strip line == "%" -> if begun then [] else upToEnd True more
         | otherwise -> (n, line) : upToEnd (begun || not (Text.null (Text.strip line))) more
     block (n, line) = case maybe (wordsOf n line) Left (signFault dialect n line) of
-      Left fault -> Left fault
+      Left fault -> Just (Left fault)
       Right (ws, cs)
-        | null ws && null cs -> Right []
-        | otherwise -> Right [GcodeBlock n ws cs ("/" `Text.isPrefixOf` Text.stripStart line)]
+        | null ws && null cs -> Nothing
+        | otherwise -> Just (Right (GcodeBlock n ws cs (isOptionalLine line)))
+    isOptionalLine = Text.isPrefixOf "/" . Text.stripStart
 
 -- | Fault of a line in which the control reads a character in another way than 'wordsOf' does.
 --

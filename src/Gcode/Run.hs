@@ -41,6 +41,8 @@ data Running = Running
     isEnded :: Bool,
     -- | number of the last line
     reached :: Int,
+    -- | true behind the first line with words
+    hasWords :: Bool,
     -- | the sizes of the canned cycle in force that stay for its next lines, by their letters:
     -- lengths in picometres, and the time in seconds
     cycleSizes :: [(Char, GcodeNumber)],
@@ -53,11 +55,9 @@ data Running = Running
 -- Lines are numbered from @first@ on.
 run :: ProgramForm -> Maybe Int -> Int -> Text -> Either Fault [Step]
 run form tool first text = do
-  lines' <- blocks (dialect form) first text
-  checkNames lines'
-  when (null lines') (Left (Fault first 1 NoWords))
+  (final, steps) <- foldM next (begin, []) (blocks (dialect form) first text)
+  when (reached final < first) (Left (Fault first 1 NoWords))
   checkLengths form first text
-  (final, steps) <- foldM next (begin, []) lines'
   let end = [Step (reached final) (modal final) FileEnds | not (isEnded final)]
   pure (reverse (end <> steps))
   where
@@ -67,23 +67,26 @@ run form tool first text = do
         { modal = state0 {toolInSpindle = maybe Unset (SetAt 0) tool},
           place = ToolPlace Anywhere Anywhere Anywhere,
           isEnded = False,
-          reached = first,
+          reached = first - 1,
+          hasWords = False,
           cycleSizes = [],
           cycleLevel = Nothing
         }
-    next (now, done) b = do
+    next (now, done) line' = do
+      b <- line'
+      when (hasWords now) (checkNames b)
       (now', steps) <- runBlock form now b
       let after = foldl' (\before step -> step `seq` step : before) done steps
       -- Steps that wait to be evaluated would keep their lines in memory.
-      after `seq` pure (now' {reached = lineNumber b}, after)
+      after `seq` pure (behind b now', after)
+    behind b now =
+      now {reached = lineNumber b, hasWords = hasWords now || not (null (gcodeWords b))}
 
--- | Refuses the name of a program behind the first words of a file: another program begins there.
-checkNames :: [GcodeBlock] -> Either Fault ()
-checkNames list = case filter (not . null . gcodeWords) list of
-  [] -> Right ()
-  _ : more -> forM_ more $ \b ->
-    forM_ [w | w <- gcodeWords b, letter w == 'O'] $ \w ->
-      faultOf b w (UnprovenWord (wordText w))
+-- | Refuses the name of a program in a line behind the first words of a file: another program
+-- begins there.
+checkNames :: GcodeBlock -> Either Fault ()
+checkNames b =
+  forM_ [w | w <- gcodeWords b, letter w == 'O'] $ \w -> faultOf b w (UnprovenWord (wordText w))
 
 -- | Refuses lines that are longer than the control reads.
 checkLengths :: ProgramForm -> Int -> Text -> Either Fault ()
