@@ -1,4 +1,4 @@
-{-# OPTIONS_GHC -O0 #-}
+{-# OPTIONS_GHC -O0 -fno-ignore-interface-pragmas #-}
 
 -- | Mistakes in calls that show only in the whole program: two arguments in the wrong order whose
 -- types other uses decide, numbers for vectors, and a space before the bracket of a call.

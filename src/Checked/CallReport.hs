@@ -1,4 +1,4 @@
-{-# OPTIONS_GHC -O0 #-}
+{-# OPTIONS_GHC -O0 -fno-ignore-interface-pragmas #-}
 
 -- | The reports of calls whose arguments are in the wrong number, order, place or form.
 module Checked.CallReport

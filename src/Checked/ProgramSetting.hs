@@ -1,4 +1,4 @@
-{-# OPTIONS_GHC -O0 #-}
+{-# OPTIONS_GHC -O0 -fno-ignore-interface-pragmas #-}
 
 -- | The settings that a statement makes for the statements below it or for the whole program.
 module Checked.ProgramSetting

@@ -1,4 +1,4 @@
-{-# OPTIONS_GHC -O0 #-}
+{-# OPTIONS_GHC -O0 -fno-ignore-interface-pragmas #-}
 
 -- | The table of a machine's controller: how it interpolates, its clock, its reader and its jobs.
 module Cli.ControllerTable

@@ -1,4 +1,4 @@
-{-# OPTIONS_GHC -O0 #-}
+{-# OPTIONS_GHC -O0 -fno-ignore-interface-pragmas #-}
 
 -- | Errors and warnings that concern files and the command line. Errors in programs and machine
 -- descriptions are defined in the folders of the compiler passes that find them.

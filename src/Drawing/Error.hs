@@ -1,4 +1,4 @@
-{-# OPTIONS_GHC -O0 #-}
+{-# OPTIONS_GHC -O0 -fno-ignore-interface-pragmas #-}
 
 -- | Errors in the file of a drawing, with the line of the file, and their words. The caller adds
 -- the place in the program that asks for the file.

@@ -1,4 +1,4 @@
-{-# OPTIONS_GHC -O0 #-}
+{-# OPTIONS_GHC -O0 -fno-ignore-interface-pragmas #-}
 
 -- | Errors and warnings of the step from the toolpath to frames: requests of the program that a
 -- machine cannot carry out, or carries out differently.

@@ -1,4 +1,4 @@
-{-# OPTIONS_GHC -O0 #-}
+{-# OPTIONS_GHC -O0 -fno-ignore-interface-pragmas #-}
 
 -- | Reasons why the frames of a description cannot be decoded uniquely, and their reports.
 module Machine.DecodingError

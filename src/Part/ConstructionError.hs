@@ -1,4 +1,4 @@
-{-# OPTIONS_GHC -O0 #-}
+{-# OPTIONS_GHC -O0 -fno-ignore-interface-pragmas #-}
 
 -- | Faults of constructions that have no answer, or several answers of which the program does not
 -- choose one. The constructions are intersections, tangents, circles, points of a curve, distances

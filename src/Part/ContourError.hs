@@ -1,4 +1,4 @@
-{-# OPTIONS_GHC -O0 #-}
+{-# OPTIONS_GHC -O0 -fno-ignore-interface-pragmas #-}
 
 -- | Faults of contours: wrong elements, and links that cannot join their neighbours.
 module Part.ContourError

@@ -1,4 +1,4 @@
-{-# OPTIONS_GHC -O0 #-}
+{-# OPTIONS_GHC -O0 -fno-ignore-interface-pragmas #-}
 
 -- | Faults of curves and pieces. Points may make no curve, a shifted curve may turn back or have a
 -- gap, and a bevel or a joggle may not fit.

@@ -1,4 +1,4 @@
-{-# OPTIONS_GHC -O0 #-}
+{-# OPTIONS_GHC -O0 -fno-ignore-interface-pragmas #-}
 
 -- | Faults of the links of a contour: links that cannot join their neighbours. Their reports offer
 -- fixes with the numbers that are known.

@@ -1,4 +1,4 @@
-{-# OPTIONS_GHC -O0 #-}
+{-# OPTIONS_GHC -O0 -fno-ignore-interface-pragmas #-}
 
 -- | Rendering of reports for a person at a terminal: heading, source lines with marks, sentences
 -- and hints. Line numbers and a vertical bar to the left of the source lines form the /gutter/.

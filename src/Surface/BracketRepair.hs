@@ -1,4 +1,4 @@
-{-# OPTIONS_GHC -O0 #-}
+{-# OPTIONS_GHC -O0 -fno-ignore-interface-pragmas #-}
 
 -- | Candidates for the repair of a statement that change its brackets and braces, or move settings
 -- into its braces and out of them.

@@ -1,4 +1,4 @@
-{-# OPTIONS_GHC -O0 #-}
+{-# OPTIONS_GHC -O0 -fno-ignore-interface-pragmas #-}
 
 -- | Fixes for characters that have no place in a program, and for numbers, units and texts that are
 -- written in another way.

@@ -1,4 +1,4 @@
-{-# OPTIONS_GHC -O0 #-}
+{-# OPTIONS_GHC -O0 -fno-ignore-interface-pragmas #-}
 
 -- | The words for characters that have no place in a program.
 module Surface.CharacterReport

@@ -1,4 +1,4 @@
-{-# OPTIONS_GHC -O0 #-}
+{-# OPTIONS_GHC -O0 -fno-ignore-interface-pragmas #-}
 
 -- | Mistakes in the syntax of a program, its imports and its table files, and their reports.
 module Surface.Error

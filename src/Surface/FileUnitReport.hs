@@ -1,4 +1,4 @@
-{-# OPTIONS_GHC -O0 #-}
+{-# OPTIONS_GHC -O0 -fno-ignore-interface-pragmas #-}
 
 -- | The report of a @units@ statement that does not stand at the beginning of its file.
 module Surface.FileUnitReport

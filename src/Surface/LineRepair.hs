@@ -1,4 +1,4 @@
-{-# OPTIONS_GHC -O0 #-}
+{-# OPTIONS_GHC -O0 -fno-ignore-interface-pragmas #-}
 
 -- | Candidates for the repair of a statement that are particular to one kind of statement, such as
 -- two definitions on one line.

@@ -1,4 +1,4 @@
-{-# OPTIONS_GHC -O0 #-}
+{-# OPTIONS_GHC -O0 -fno-ignore-interface-pragmas #-}
 
 -- | Candidates for the repair of a statement: changes of its tokens near the one at which it cannot
 -- be parsed.

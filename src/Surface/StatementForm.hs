@@ -1,4 +1,4 @@
-{-# OPTIONS_GHC -O0 #-}
+{-# OPTIONS_GHC -O0 -fno-ignore-interface-pragmas #-}
 
 -- | Examples of statements, settings and elements, for reports on those that cannot be parsed.
 module Surface.StatementForm

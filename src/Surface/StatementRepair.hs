@@ -1,4 +1,4 @@
-{-# OPTIONS_GHC -O0 #-}
+{-# OPTIONS_GHC -O0 -fno-ignore-interface-pragmas #-}
 
 -- | The repair of a statement that cannot be parsed: the smallest changes of its tokens with which
 -- it can be.

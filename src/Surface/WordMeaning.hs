@@ -1,4 +1,4 @@
-{-# OPTIONS_GHC -O0 #-}
+{-# OPTIONS_GHC -O0 -fno-ignore-interface-pragmas #-}
 
 -- | Words of other languages and of the shop, with the words of part programs that mean the same.
 module Surface.WordMeaning

@@ -1,4 +1,4 @@
-{-# OPTIONS_GHC -O0 #-}
+{-# OPTIONS_GHC -O0 -fno-ignore-interface-pragmas #-}
 
 -- | Reports on material that the tip of a V-carving leaves because it is too wide.
 module Toolpath.CarvingReport

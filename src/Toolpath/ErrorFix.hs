@@ -1,4 +1,4 @@
-{-# OPTIONS_GHC -O0 #-}
+{-# OPTIONS_GHC -O0 -fno-ignore-interface-pragmas #-}
 
 -- | Fixes of the errors of toolpaths: another size of the tool, another side, another start of the
 -- contour, rest material, compensation by the compiler. All of them are proposals, because they

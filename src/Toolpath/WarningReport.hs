@@ -1,4 +1,4 @@
-{-# OPTIONS_GHC -O0 #-}
+{-# OPTIONS_GHC -O0 -fno-ignore-interface-pragmas #-}
 
 -- | Warnings about toolpaths with the texts of their reports, and the texts for tools and elements
 -- that all reports of this folder share.
