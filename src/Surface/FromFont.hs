@@ -8,7 +8,6 @@ where
 
 import Base.Region (Located (..), Region (Region))
 import Base.Region qualified as Region
-import Control.Monad (join)
 import Data.Either (partitionEithers)
 import Data.List.NonEmpty (NonEmpty (..))
 import Data.List.NonEmpty qualified as NonEmpty
@@ -33,9 +32,16 @@ import Geometry.Polyarc (Ends (Closed))
 import Surface.FontError (FontMistake (..))
 import Surface.Syntax (Lettering (..), TextAlignment (..), TextCourse (..))
 
--- | The outlines of glyphs that earlier texts have. There are none if a glyph encloses nothing;
--- Nothing if its outlines cross.
-type KnownGlyphs = Map GlyphName (Maybe (Maybe FilledOutlines))
+-- | The glyphs of earlier texts.
+type KnownGlyphs = Map GlyphName GlyphArea
+
+-- | The area that the outlines of a glyph bound.
+data GlyphArea
+  = Bounded FilledOutlines
+  | -- | of a glyph that encloses nothing, such as a space
+    NoArea
+  | -- | outlines that cross or touch
+    Unclear
 
 -- | The shapes of the letters of a text in a font, or its mistakes; and all glyphs that are known
 -- then. @path@ is the path of the font, @file@ its name, and @answer@ its glyphs of the text, or
@@ -74,18 +80,21 @@ shape ::
   GlyphName ->
   NonEmpty GlyphPlace ->
   Either FontMistake (Maybe LetterShape)
-shape text known shapeGlyph letters = case join (Map.lookup shapeGlyph known) of
-  Nothing -> Left (CrossingGlyph (regionOf (NonEmpty.head letters)))
-  Just found -> Right (LetterShape shapeGlyph (fmap placed letters) <$> found)
+shape text known shapeGlyph letters = case Map.findWithDefault NoArea shapeGlyph known of
+  Bounded outlines -> Right (Just (LetterShape shapeGlyph (fmap placed letters) outlines))
+  NoArea -> Right Nothing
+  Unclear -> Left (CrossingGlyph (regionOf (NonEmpty.head letters)))
   where
     placed g = Located (regionOf g) (begin g)
     regionOf = characterRegion text . character
 
--- | The outlines of a glyph that bound its area, with their depths.
-filled :: NonEmpty (NonEmpty PathPart) -> Maybe (Maybe FilledOutlines)
+-- | The area of a glyph with closed outlines.
+filled :: NonEmpty (NonEmpty PathPart) -> GlyphArea
 filled outlines = case Filling.filled (map outlineOf (NonEmpty.toList outlines)) of
-  Left _ -> Nothing
-  Right found -> Just (NonEmpty.nonEmpty [(fmap part (parts o), depth) | (o, depth) <- found])
+  Left _ -> Unclear
+  Right found ->
+    maybe NoArea Bounded . NonEmpty.nonEmpty $
+      [(fmap part (parts o), depth) | (o, depth) <- found]
   where
     outlineOf path =
       Outline Closed (fmap (DrawnPart (Entity 0 "" "" [] [] (Path Closed path))) path)

@@ -17,8 +17,9 @@ import Data.Text qualified as Text
 import Drawing.PathPart qualified as PathPart
 import Font.TextOutline (GlyphPlace (..))
 import Font.TextOutline qualified as TextOutline
-import Font.TrueType (GlyphRun (..))
+import Font.TrueType (FontFault, Glyph (..), GlyphContour (..), GlyphCurve (..), GlyphRun (..))
 import Font.TrueType qualified as TrueType
+import Geometry.Polyarc qualified as Polyarc
 import Geometry.Segment qualified as Segment
 import Geometry.Vec (Point)
 import Geometry.Vec qualified as Vec
@@ -49,10 +50,33 @@ spec = modifyMaxSuccess (const 60) $ do
                         [counterexample (show q) (any (isNear q) (startsIn part)) | q <- expected]
                     Nothing ->
                       counterexample (show (map Report.title (Result.errors outcome))) False
+  it "letters that overlap are joined" $ do
+    program <-
+      loadedBy
+        (const (Right overlapping))
+        "contours sign from \"own.ttf\" text \"HH\" at (0, 0) height 7"
+    let outcome = Compile.analyse [] program
+    map Report.title (Result.errors outcome) `shouldBe` []
+    map (Polyarc.signedArea . Part.polyarcOf) (regionOf outcome) `shouldBe` [56]
   where
     hundredths :: Int -> Int -> Gen Double
     hundredths low high = (/ 100) . fromIntegral <$> chooseInt (100 * low, 100 * high)
     isNear a b = Vec.distance a b <= Mm 1e-9
+    regionOf outcome =
+      [ c
+        | Just Analysis {part} <- [Result.ifSound outcome],
+          c <- Part.contours part,
+          value (Part.contourName c) == Name "sign"
+      ]
+
+-- | A run of two letters, each a square of 5 mm by 7 mm, the second one 3 mm behind the first one.
+overlapping :: GlyphRun
+overlapping = GlyphRun {capitalHeight = Just 700, characterGlyphs = [Just glyph, Just glyph]}
+  where
+    glyph = Glyph {advance = 300, kerning = 0, glyphContours = [square]}
+    square =
+      GlyphContour (corner 0 0) (map (LineTo . uncurry corner) [(5, 0), (5, 7), (0, 7), (0, 0)])
+    corner x y = Vec.point (100 * x) (100 * y)
 
 -- | The statement for a text, a height, a direction in degrees, a point and an alignment.
 statementOf :: Text -> Double -> Double -> (Double, Double) -> Text -> Text
@@ -91,11 +115,18 @@ startsIn part =
 
 -- | A program with a statement, beside a font.
 loaded :: ByteString -> Text -> IO LoadedProgram
-loaded font statement = LoadedProgram.load reader "t.part" whole
+loaded font statement = loadedFrom (fmap Right . TrueType.glyphs font) statement
+
+-- | A program with a statement, beside a font that gives these glyphs for a text.
+loadedBy :: (Text -> Either FontFault GlyphRun) -> Text -> IO LoadedProgram
+loadedBy glyphsOf = loadedFrom (pure . Right . glyphsOf)
+
+loadedFrom :: (Text -> IO (Either Text (Either FontFault GlyphRun))) -> Text -> IO LoadedProgram
+loadedFrom glyphsOf statement = LoadedProgram.load reader "t.part" whole
   where
     reader =
       (Import.byName (const (pure (Left "it imports nothing"))))
-        { Import.glyphs = \_ text -> Right <$> TrueType.glyphs font text
+        { Import.glyphs = const glyphsOf
         }
     whole =
       Text.unlines
