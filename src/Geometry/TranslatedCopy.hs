@@ -19,9 +19,10 @@ import Geometry.Tolerance qualified as Tolerance
 import Geometry.Vec (Point, Vec)
 import Geometry.Vec qualified as Vec
 
--- | The values of a function @compute@ of settings and contours, for groups of both. The value for
--- contours that are a translated copy of earlier ones, to 'Tolerance.sameCopy', is that of those,
--- which @move@ moves by a vector. @compute@ has to give a translated value for translated contours.
+-- | The values of a function @compute@ of settings and closed contours, for groups of both. The
+-- value for contours that are a translated copy of earlier ones, to 'Tolerance.sameCopy', is that
+-- of those, which @move@ moves by a vector. @compute@ has to give a translated value for translated
+-- contours.
 shared ::
   Ord k =>
   (k -> NonEmpty Polyarc -> a) ->
@@ -43,8 +44,9 @@ startOf :: NonEmpty Polyarc -> Point
 startOf loops = Segment.start (NonEmpty.head (Polyarc.segments (NonEmpty.head loops)))
 
 -- | Numbers that are equal for translated copies: the count of segments of each contour, its start,
--- and for each segment its end and its sweep, which is 0 for a line. Positions are multiples of
--- 'Tolerance.sameCopy' from the start of the first contour.
+-- and for each segment 0 and the end of a line, or 1 and the end, the centre and the sweep of an
+-- arc. Positions are multiples of 'Tolerance.sameCopy' from the start of the first contour. Without
+-- the centre all full circles would be equal.
 shapeOf :: NonEmpty Polyarc -> PrimArray Int
 shapeOf loops = PrimArray.primArrayFromList (concatMap ofLoop loops)
   where
@@ -54,8 +56,8 @@ shapeOf loops = PrimArray.primArrayFromList (concatMap ofLoop loops)
           multiples (Segment.start (NonEmpty.head ss)) (concatMapSegments ss)
     concatMapSegments = foldr ofSegment []
     ofSegment s more = case s of
-      Straight _ q -> multiples q (0 : more)
-      Arc {end = q, sweep = Rad w} -> multiples q (steps w : more)
+      Straight _ q -> 0 : multiples q more
+      Arc {end = q, centre = c, sweep = Rad w} -> 1 : multiples q (multiples c (steps w : more))
     multiples p more = steps (Vec.x p - Vec.x begin) : steps (Vec.y p - Vec.y begin) : more
     steps :: Double -> Int
     steps v = round (v / resolution)

@@ -5,10 +5,11 @@ module Geometry.TranslatedCopySpec
 where
 
 import Base.Quantity (Mm (..), Rad (..))
-import Data.List.NonEmpty (NonEmpty)
+import Data.List.NonEmpty (NonEmpty (..))
 import Data.List.NonEmpty qualified as NonEmpty
 import Generate.Area (area)
-import Geometry.Polyarc (Polyarc (..))
+import Geometry.Carrier (Circle (Circle), Sense (CounterClockwise))
+import Geometry.Polyarc (Ends (Closed), Polyarc (..))
 import Geometry.Segment qualified as Segment
 import Geometry.Transformation qualified as Transformation
 import Geometry.TranslatedCopy qualified as TranslatedCopy
@@ -33,7 +34,16 @@ spec = do
     forAll groups $ \known -> forAll place $ \v ->
       let both = sharedBy (const id) (known <> map (fmap (copy v)) known)
        in drop (length known) both === take (length known) both
+  it "circles of other sizes are no copies, although they start at the same point" $
+    let circle r =
+          Segment.fullCircle CounterClockwise (Circle (Vec.point r 0) (Mm r)) (Vec.point 0 0)
+        loops = [(0 :: Int, Polyarc Closed (circle r :| []) :| []) :| [] | r <- [3, 5]]
+        radii = TranslatedCopy.shared (const (fmap radiusOf)) (const id) loops
+     in radii `shouldBe` [(Mm 3 :| []) :| [], (Mm 5 :| []) :| []]
   where
+    radiusOf loop = case NonEmpty.head (segments loop) of
+      Segment.Arc {Segment.start, Segment.centre} -> Segment.radius centre start
+      Segment.Straight _ _ -> Mm 0
     sharedBy move = TranslatedCopy.shared middles (map . move)
     copy v (k, loops) = (k, moved v loops)
     turnedCopy v (k, loops) = (k, turned (moved v loops))
