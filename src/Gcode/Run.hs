@@ -57,10 +57,11 @@ run :: ProgramForm -> Maybe Int -> Int -> Text -> Either Fault [Step]
 run form tool first text = do
   (final, steps) <- foldM next (begin, []) (blocks (dialect form) first text)
   when (reached final < first) (Left (Fault first 1 NoWords))
-  checkLengths form first text
+  maybe (Right ()) Left tooLong
   let end = [Step (reached final) (modal final) FileEnds | not (isEnded final)]
   pure (reverse (end <> steps))
   where
+    tooLong = longLine form first text
     state0 = initial (dialect form)
     begin =
       Running
@@ -74,6 +75,7 @@ run form tool first text = do
         }
     next (now, done) line' = do
       b <- line'
+      forM_ tooLong $ \fault@(Fault n _ _) -> when (lineNumber b >= n) (Left fault)
       when (hasWords now) (checkNames b)
       (now', steps) <- runBlock form now b
       let after = foldl' (\before step -> step `seq` step : before) done steps
@@ -88,11 +90,14 @@ checkNames :: GcodeBlock -> Either Fault ()
 checkNames b =
   forM_ [w | w <- gcodeWords b, letter w == 'O'] $ \w -> faultOf b w (UnprovenWord (wordText w))
 
--- | Refuses lines that are longer than the control reads.
-checkLengths :: ProgramForm -> Int -> Text -> Either Fault ()
-checkLengths form first text = case filter (isTooLong . snd) (zip [first ..] (Text.lines text)) of
-  (n, _) : _ -> Left (Fault n (mostCharacters form + 1) (LineTooLong (mostCharacters form)))
-  [] -> Right ()
+-- | Fault of the first line that is longer than the control reads, if there is one.
+longLine :: ProgramForm -> Int -> Text -> Maybe Fault
+longLine form first text =
+  listToMaybe
+    [ Fault n (mostCharacters form + 1) (LineTooLong (mostCharacters form))
+      | (n, l) <- zip [first ..] (Text.lines text),
+        isTooLong l
+    ]
   where
     isTooLong l = Text.length (Text.dropWhileEnd (== '\r') l) > mostCharacters form
 

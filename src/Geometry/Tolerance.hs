@@ -56,8 +56,8 @@ coincident :: Mm
 coincident = Mm 1e-6
 
 -- | The resolution at which contours are compared that may be translated copies of each other.
--- Sweeps of arcs are compared at as many radians. Rounding changes a coordinate by much less, also
--- the centre of a flat arc.
+-- Sweeps of arcs are compared at as many radians. Rounding changes a coordinate by much less, but
+-- for centres of very flat arcs; contours with such arcs are then no copies.
 sameCopy :: Mm
 sameCopy = Mm 1e-8
 

@@ -32,12 +32,31 @@ shared ::
 shared compute move groups = map (fmap valueOf) keyed
   where
     keyed =
-      [fmap (\(k, loops) -> ((k, shapeOf loops), (startOf loops, compute k loops))) g | g <- groups]
+      [fmap (\(k, loops) -> ((k, shapeOf loops), (loops, compute k loops))) g | g <- groups]
     firsts = Map.fromListWith (\_ first -> first) (concatMap NonEmpty.toList keyed)
-    valueOf (key, own@(begin, _)) = case Map.findWithDefault own key firsts of
-      (start, value)
-        | start == begin -> value
-        | otherwise -> move (Vec.to start begin) value
+    valueOf (key, (loops, own)) = case Map.lookup key firsts of
+      Just (first, value)
+        | startOf first == startOf loops && first == loops -> value
+        | isCopy v first loops -> move v value
+        where
+          v = Vec.to (startOf first) (startOf loops)
+      _ -> own
+
+-- | True for contours that are others moved by a vector. Equal numbers of 'shapeOf' only find
+-- contours that may be so.
+isCopy :: Vec -> NonEmpty Polyarc -> NonEmpty Polyarc -> Bool
+isCopy v first loops = length first == length loops && and (NonEmpty.zipWith isSame first loops)
+  where
+    isSame a b =
+      let (ss, ts) = (Polyarc.segments a, Polyarc.segments b)
+       in length ss == length ts && and (NonEmpty.zipWith isSameSegment ss ts)
+    isSameSegment s t = case (s, t) of
+      (Straight p q, Straight p' q') -> near p p' && near q q'
+      (Arc p q c (Rad w), Arc p' q' c' (Rad w')) ->
+        near p p' && near q q' && near c c' && abs (w - w') <= most
+      _ -> False
+    near p q = Vec.distance (Vec.shift v p) q <= Mm most
+    most = let Mm resolution = Tolerance.sameCopy in 2 * resolution
 
 -- | The point at which the first contour starts.
 startOf :: NonEmpty Polyarc -> Point

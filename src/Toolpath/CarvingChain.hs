@@ -3,7 +3,7 @@
 -- The ends of the branches are the nodes of a graph. A chain begins where only one branch ends, if
 -- there is such a node, and goes on along branches that are not yet carved for as long as there are
 -- any. Where several are left, it first carves a short branch to a free end, there and back, such
--- as a branch into a corner: that is quicker than to lift the tool for it.
+-- as a branch into a corner: that is usually quicker than to lift the tool for it.
 module Toolpath.CarvingChain
   ( chains,
     deepParts,
@@ -15,7 +15,7 @@ import Data.IntMap.Strict (IntMap)
 import Data.IntMap.Strict qualified as IntMap
 import Data.IntSet (IntSet)
 import Data.IntSet qualified as IntSet
-import Data.List (mapAccumL)
+import Data.List (mapAccumL, partition)
 import Data.List.NonEmpty (NonEmpty (..))
 import Data.List.NonEmpty qualified as NonEmpty
 import Data.Map.Strict (Map)
@@ -61,20 +61,14 @@ chains :: Mm -> [Branch] -> [NonEmpty Branch]
 chains most found = walks (freeEnds <> map fst (IntMap.toList from)) graph IntSet.empty
   where
     (_, joined) = mapAccumL withNodes (Nodes 0 Map.empty) found
-    isBranch (_, _, b) = any hasLength (NonEmpty.toList b)
-    from =
-      IntMap.unionWith
-        const
-        (fanned (filter isBranch joined))
-        (IntMap.map (take 1) (fanned (filter (not . isBranch) joined)))
+    -- One numbering for all, so that no number stands for two branches.
+    (long, short) = partition (hasExtent . snd) (zip [0 ..] joined)
+    hasExtent (_, _, b) = any hasLength (NonEmpty.toList b)
+    from = IntMap.unionWith const (fanned long) (IntMap.map (take 1) (fanned short))
     fanned list =
       IntMap.fromListWith
         (flip (<>))
-        ( concat
-            [ [(a, [(k, z, b)]), (z, [(k, a, backwards b)])]
-              | (k, (a, z, b)) <- zip [0 ..] list
-            ]
-        )
+        (concat [[(a, [(k, z, b)]), (z, [(k, a, backwards b)])] | (k, (a, z, b)) <- list])
     freeEnds = [n | (n, [_]) <- IntMap.toList from]
     graph = fmap (map outward) from
     outward (k, next, b) =

@@ -30,6 +30,7 @@ import Geometry.Polyarc (Polyarc)
 import Geometry.Polyarc qualified as Polyarc
 import Geometry.Segment (Segment (..))
 import Geometry.Segment qualified as Segment
+import Geometry.Tolerance qualified as Tolerance
 import Geometry.Transformation qualified as Transformation
 import Geometry.TranslatedCopy qualified as TranslatedCopy
 import Geometry.Vec (Point, Vec)
@@ -120,8 +121,8 @@ data Setting = Setting
     contourDeviation :: Double,
     -- | the deviation that is allowed at the top of the part
     allowed :: Double,
-    -- | the radius of the tip
-    tip :: Double,
+    -- | the radius at the top of the part of a tip that is one pulse deep
+    least :: Double,
     -- | the radius of the cone at the largest depth
     widest :: Double
   }
@@ -132,7 +133,7 @@ settingOf machine c =
   Setting
     { contourDeviation = contourShare * most,
       allowed = (1 - contourShare) * most + pulse + pulseZ * slope c,
-      tip,
+      least = tip + pulseZ * slope c,
       widest
     }
   where
@@ -272,7 +273,8 @@ mayOverlap most (path, r0, r1) edge = case (path, edge) of
       (s0, s1) = (Vec.dot u (Vec.to o a) - big, Vec.dot u (Vec.to o b) - big)
   where
     beside d0 d1 = not (r0 - d0 <= limit && r1 - d1 <= limit)
-    limit = most - Fast.unsure
+    Mm slack = Tolerance.coincident
+    limit = most - slack
 
 -- | The largest amount by which the discs along a path go beyond an edge, and the centre of the
 -- disc that does. The radius changes evenly along the path.
@@ -320,7 +322,7 @@ overlap (path, r0, r1) edge = case path of
 sampleStep :: Mm
 sampleStep = Mm 0.5
 
--- | Discs at points of the edges of an area whose largest disc is at least as large as the tip.
+-- | Discs at points of the edges of an area, where the largest one is larger than the tip.
 discsOf :: Setting -> NonEmpty Segment -> [EdgeDisc]
 discsOf setting segments =
   [ EdgeDisc p centre r
@@ -328,7 +330,7 @@ discsOf setting segments =
       u <- sampled s,
       let p = Segment.at u s
           (centre, r) = largest setting area p (Vec.left (Segment.directionAt u s)),
-      r >= tip setting
+      r > least setting
   ]
   where
     area = treeOf segments
