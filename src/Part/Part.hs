@@ -37,6 +37,7 @@ module Part.Part
     TapStroke (..),
     Circling (..),
     Carving (..),
+    carvingContours,
     carvingReach,
     carvingFlank,
     ThreadHelix (..),
@@ -130,8 +131,7 @@ data Part = Part
     fittings :: [(Located Name, Fitting)],
     -- | the distances and radii to which assertions give values
     assertedSizes :: [AssertedSize],
-    -- | for editors: the values of the definitions as text, each with the region of the defined
-    -- name
+    -- | for editors: the values of definitions as text, each with the region of the defined name
     readings :: [(Region, Text)],
     -- | for pictures: the points, the vectors as points, and the centres of the circles that the
     -- program defines by name
@@ -549,6 +549,10 @@ data Carving = Carving
     carvingRest :: RestPolicy
   }
   deriving stock (Eq, Show)
+
+-- | The contours of each area of a V-carving, the outline first.
+carvingContours :: Carving -> NonEmpty (NonEmpty Polyarc.Polyarc)
+carvingContours = fmap (\(outline, inner) -> fmap polyarcOf (outline :| inner)) . carvedAreas
 
 -- | The distance of the axis of a V-carving's tool, at the largest depth, from the contours.
 carvingReach :: Carving -> Mm

@@ -47,12 +47,8 @@ data Setting = Setting
 -- | The areas of each of some V-carvings. Areas that are translated copies of each other, such as
 -- equal letters, are computed once.
 ofCarvings :: [Carving] -> [NonEmpty CarvedArea]
-ofCarvings carvings = TranslatedCopy.shared area moved (map asked carvings)
-  where
-    asked c =
-      fmap
-        (\(outline, holes) -> (settingOf c, fmap Part.polyarcOf (outline :| holes)))
-        (Part.carvedAreas c)
+ofCarvings carvings =
+  TranslatedCopy.shared area moved [(settingOf c,) <$> Part.carvingContours c | c <- carvings]
 
 settingOf :: Carving -> Setting
 settingOf c =

@@ -7,6 +7,8 @@
 -- closed form. From a line or an arc it can also be least where the motion crosses it.
 module Verify.CarvingCheck
   ( carvingFindings,
+    overlap,
+    mayOverlap,
   )
 where
 
@@ -105,7 +107,7 @@ carvingFindings machine path program isAligned toolsIn motions =
         ]
     isNear c m = BoundingBox.meets (Motion.box m) (boxOf c)
     boxOf c =
-      boxAround (sconcat (sconcat (fmap (fmap Polyarc.segments) (areasOf c))))
+      boxAround (sconcat (sconcat (fmap (fmap Polyarc.segments) (Part.carvingContours c))))
 
 boxAround :: NonEmpty Segment -> BoundingBox
 boxAround = foldr1 BoundingBox.union . fmap BoundingBox.ofSegment
@@ -143,14 +145,13 @@ settingOf machine c =
     Mm tip = Part.carvingTip c
     Mm widest = Part.carvingReach c
 
--- | The contours of each connected area of a V-carving, the outline first.
-areasOf :: Carving -> NonEmpty (NonEmpty Polyarc)
-areasOf = fmap (\(outline, holes) -> fmap Part.polyarcOf (outline :| holes)) . Part.carvedAreas
-
 -- | The areas of each of some V-carvings. Those that are translated copies are computed once.
 checkedAreas :: Machine -> [Carving] -> [NonEmpty CheckedArea]
 checkedAreas machine carvings =
-  TranslatedCopy.shared checkedArea moved [(settingOf machine c,) <$> areasOf c | c <- carvings]
+  TranslatedCopy.shared
+    checkedArea
+    moved
+    [(settingOf machine c,) <$> Part.carvingContours c | c <- carvings]
 
 -- | The area with some contours.
 checkedArea :: Setting -> NonEmpty Polyarc -> CheckedArea

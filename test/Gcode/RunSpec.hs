@@ -24,6 +24,18 @@ spec = describe "lines of files" $ do
         Left fault -> expectationFailure (show fault)
         Right _ -> pure ()
 
+  it "have the first fault of a file, in the order of its lines" $ do
+    let linesOf = Run.run (formOf "grbl") (Just 1) 1 . Text.unlines
+        long = "(" <> Text.replicate 300 "a" <> ")"
+        placeOf answer = case answer of
+          Left (Fault n _ _) -> Just n
+          Right _ -> Nothing
+    placeOf (linesOf ["G21", "X1", "G1 Z-20!"]) `shouldBe` Just 2
+    placeOf (linesOf ["G21", "G1 Z-20!", "X1"]) `shouldBe` Just 2
+    placeOf (linesOf ["G21", long, "X1"]) `shouldBe` Just 2
+    placeOf (linesOf ["G21", "X1", long]) `shouldBe` Just 2
+    placeOf (linesOf ["G21", "G0", long]) `shouldBe` Just 3
+
 formOf :: Text -> ProgramForm
 formOf name =
   fromMaybe (error "no machine with a form") (BuiltIn.find (MachineName name) >>= programForm)

@@ -21,6 +21,8 @@ import Frame.Frame qualified as Frame
 import Frame.FromToolpath qualified as FromToolpath
 import Geometry.Distance qualified as Distance
 import Geometry.Polyarc qualified as Polyarc
+import Geometry.RandomSegment qualified as RandomSegment
+import Geometry.Segment (Segment)
 import Machines qualified
 import Numeric (showFFloat)
 import Part.Part qualified as Part
@@ -31,6 +33,7 @@ import Test.Hspec
 import Test.QuickCheck
 import Toolpath.Toolpath (Block (Carved, Clearing, cleared, pocket), Toolpath)
 import Toolpath.Toolpath qualified as Toolpath
+import Verify.CarvingCheck qualified as CarvingCheck
 import Verify.FromTape qualified as Verify
 import Verify.Proof qualified as Proof
 
@@ -43,6 +46,11 @@ spec = do
       forAllBlind carved $ \(text, path, program) ->
         counterexample (Text.unpack text) $
           codesOf path program (map Frame.frame (Frame.plannedFrames program)) === []
+  it "a disc that goes beyond an edge is not left out (catches a path that crosses a line)" $
+    withMaxSuccess 5000 $
+      forAll ((,,) <$> RandomSegment.segment <*> swept <*> choose (0, 5)) $ \(edge, discs, by) ->
+        let (over, _) = CarvingCheck.overlap discs edge
+         in counterexample (show over) (CarvingCheck.mayOverlap (over - by) discs edge)
   it "a move that carves deeper goes beyond the edge (catches a cone that is judged at its tip)" $
     withMaxSuccess count $
       forAllBlind carved $ \(text, path, program) ->
@@ -246,3 +254,9 @@ taped text = do
     Result.ifSound (Compile.analyse [] (LoadedProgram.fromText "p.part" text))
   (path,)
     <$> Result.ifSound (FromToolpath.quantise (Target.setUpFor path Machines.iso6983) path)
+
+-- | A path with the radii of the discs at its ends.
+swept :: Gen (Segment, Double, Double)
+swept = (,,) <$> RandomSegment.segment <*> radius <*> radius
+  where
+    radius = choose (-5, 40)
