@@ -8,14 +8,11 @@ where
 import Data.Foldable (toList)
 import Data.Graph (flattenSCC, stronglyConnComp)
 import Data.List (nub)
-import Data.List.NonEmpty (NonEmpty)
-import Data.List.NonEmpty qualified as NonEmpty
 import Data.Map.Strict qualified as Map
 import Data.Set (Set)
 import Data.Set qualified as Set
 import Data.Vector (Vector)
 import Data.Vector qualified as Vector
-import Drawing.Nesting (Crossing)
 import Drawing.Nesting qualified as Nesting
 import Drawing.Outline (Outline)
 
@@ -28,20 +25,20 @@ data Cluster = Cluster {members :: Set Int, sense :: Int}
 -- depths have given. Outlines without filled area on one side only are left out.
 --
 -- Outlines that cross one another are joined if they run in the same sense and are not within an
--- area that another outline fills. 'Left' are crossings of all others.
-filled :: [Outline] -> Either (NonEmpty Crossing) [(Outline, Int)]
-filled outlines = case NonEmpty.nonEmpty faults of
-  Just found -> Left found
-  Nothing ->
-    Right [(o, length others) | (k, o) <- zip [0 ..] outlines, Just others <- [keptAround k]]
+-- area that another outline fills. Nothing if others cross.
+filled :: [Outline] -> Maybe [(Outline, Int)]
+filled outlines
+  | any isFault pairs = Nothing
+  | otherwise =
+    Just [(o, length others) | (k, o) <- zip [0 ..] outlines, Just others <- [keptAround k]]
   where
     boundaries = map Nesting.boundary outlines
     senses = Vector.fromList (map Nesting.sense boundaries)
     around = Vector.fromList (Nesting.enclosing boundaries)
-    pairs = Nesting.crossingPairs boundaries
-    faults = [c | ((i, j), c) <- pairs, i == j || sense' i /= sense' j || isHole i]
+    pairs = map fst (Nesting.crossingPairs boundaries)
+    isFault (i, j) = i == j || sense' i /= sense' j || isHole i
     sense' i = senses Vector.! i
-    clusterOf = clusters senses (map fst pairs)
+    clusterOf = clusters senses pairs
     isHole i = let w = winding senses around (clusterOf Vector.! i) i in w * sense' i < 0
     keptAround k
       | bounds senses around (clusterOf Vector.! k) k =

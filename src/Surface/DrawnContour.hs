@@ -5,10 +5,7 @@
 module Surface.DrawnContour
   ( items,
     closure,
-    point,
     size,
-    number,
-    call,
   )
 where
 

@@ -9,7 +9,6 @@ module Surface.FromDrawing
     Converted (..),
     outlinesIn,
     contours,
-    asRegion,
     circleOf,
     withEarlier,
     tableLines,
@@ -267,8 +266,9 @@ contours text at file asked name (tolerance, chosen) = case asked of
             (map snd (DrawnContour.items (regionOf . entity) (Just Millimetre) o))
         )
 
--- | The contours of some closed outlines with their boundaries, and the region that they bound. An
--- outline within an odd count of others is a hole.
+-- | The contours of some closed outlines with their boundaries, and the region that they bound: the
+-- value of the name. An outline within an odd count of others is a hole in what the outlines around
+-- it give.
 asNested ::
   Region ->
   Located Name ->
@@ -276,24 +276,11 @@ asNested ::
   [(Outline, ClosedBoundary)] ->
   [Statement]
 asNested at name contourOf closed =
-  asRegion at name contourOf (zip (map fst closed) (Nesting.depths (map snd closed)))
-
--- | The contours of some closed outlines with their depths, and the region that they bound: the
--- value of the name. Outlines of an even depth add what is inside at least one of them to the
--- region, those of an odd depth are holes in what the lower depths give. At least one has the depth
--- 0.
-asRegion ::
-  Region ->
-  Located Name ->
-  (Located Name -> Outline -> Statement) ->
-  [(Outline, Int)] ->
-  [Statement]
-asRegion at name contourOf closed =
   zipWith contourOf names (map fst closed)
     <> [Located at (LetValue name (foldl nested (call "region" []) levels))]
   where
     names = [partName name k | k <- [1 .. length closed]]
-    depths = map snd closed
+    depths = Nesting.depths (map snd closed)
     levels = [(k, [n | (n, d) <- zip names depths, d == k]) | k <- [0 .. maximum (0 : depths)]]
     nested around (k, ns) = case k :: Int of
       0 -> call "region" [listOf ns]

@@ -91,8 +91,8 @@ shape text known shapeGlyph letters = case Map.findWithDefault NoArea shapeGlyph
 -- | The area of a glyph with closed outlines.
 filled :: NonEmpty (NonEmpty PathPart) -> GlyphArea
 filled outlines = case Filling.filled (map outlineOf (NonEmpty.toList outlines)) of
-  Left _ -> Unclear
-  Right found ->
+  Nothing -> Unclear
+  Just found ->
     maybe NoArea Bounded . NonEmpty.nonEmpty $
       [(fmap part (parts o), depth) | (o, depth) <- found]
   where
