@@ -72,7 +72,6 @@ readAlone machine form file = case Run.run form Nothing 1 (fileText file) of
     setting =
       ToFrames.FileSetting
         { ToFrames.machine,
-          ToFrames.pulsesAt = ToFrames.inPulses machine,
           ToFrames.level = Nothing,
           ToFrames.firstNumber = Nothing,
           ToFrames.tips = Map.empty,

@@ -11,7 +11,6 @@ module Gcode.ToFrames
   ( GcodeReading (..),
     FileSetting (..),
     ReadFrame (..),
-    inPulses,
     reading,
   )
 where
@@ -81,8 +80,6 @@ data Whereabouts
 -- | Facts about a program that are the same for all actions of its files.
 data FileSetting = FileSetting
   { machine :: Machine,
-    -- | 'inPulses' of the machine
-    pulsesAt :: ToolPlace -> Maybe (Pulses3, Double),
     -- | height in pulses from which on the tool is above everything; Nothing if no height in work
     -- coordinates is
     level :: Maybe Pulses,
@@ -116,12 +113,13 @@ reading setting start list =
           made = [],
           lost = 0
         }
-    end = landed setting (foldl' (converted setting) begin list)
+    end = landed setting (foldl' (converted setting (inPulses (machine setting))) begin list)
 
--- | Converts one action.
-converted :: FileSetting -> Converting -> Step -> Converting
-converted setting@FileSetting {machine} c step = case action step of
-  Travels travel -> travelled setting (cutting travel) step travel
+-- | Converts one action. @pulsesAt@ is 'inPulses' of the machine.
+converted ::
+  FileSetting -> (ToolPlace -> Maybe (Pulses3, Double)) -> Converting -> Step -> Converting
+converted setting@FileSetting {machine} pulsesAt c step = case action step of
+  Travels travel -> travelled setting pulsesAt (cutting travel) step travel
   Changes _ _ -> onSite
   Dwells t
     | isStart, waitedFor c /= started -> c {waitedFor = started}
@@ -152,8 +150,14 @@ converted setting@FileSetting {machine} c step = case action step of
         (withCommands setting step onSite)
 
 -- | Converts a motion.
-travelled :: FileSetting -> Converting -> Step -> Travel -> Converting
-travelled setting@FileSetting {machine, level} c step travel = case centreAt (to travel) of
+travelled ::
+  FileSetting ->
+  (ToolPlace -> Maybe (Pulses3, Double)) ->
+  Converting ->
+  Step ->
+  Travel ->
+  Converting
+travelled setting@FileSetting {machine, level} pulsesAt c step travel = case centreAt (to travel) of
   Nothing -> onSite {whereabouts = Away}
   Just (target, off)
     | maybe False (heightOf target >=) level -> onSite {whereabouts = Away}
@@ -172,7 +176,7 @@ travelled setting@FileSetting {machine, level} c step travel = case centreAt (to
       let (f, off) = frameOf machine step (centred travel) (here c') target
        in addMotion (line step) (withCommands setting step (losing off c')) f
     tip = fromMaybe 0 (valueOf (toolInSpindle (state step)) >>= (`Map.lookup` tips setting))
-    centreAt place = first (subtract tip) <$> pulsesAt setting place
+    centreAt place = first (subtract tip) <$> pulsesAt place
     centred t = t {about = fmap (shiftedBy machine tip) (about t)}
 
 -- | True at the retract height, or at an unknown position.

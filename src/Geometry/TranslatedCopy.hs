@@ -36,7 +36,7 @@ shared compute move groups = map (fmap valueOf) keyed
     firsts = Map.fromListWith (\_ first -> first) (concatMap NonEmpty.toList keyed)
     valueOf (key, (loops, own)) = case Map.lookup key firsts of
       Just (first, value)
-        | startOf first == startOf loops && first == loops -> value
+        | first == loops -> value
         | isCopy v first loops -> move v value
         where
           v = Vec.to (startOf first) (startOf loops)

@@ -36,6 +36,7 @@ import Part.Parameter qualified as Parameter
 import Part.Part (Contour (..), Element (..), reversedContour)
 import Part.PlaneRegion qualified as PlaneRegion
 import Part.RegionBuiltin qualified as RegionBuiltin
+import Part.Transformation qualified as PartTransformation
 import Part.Value
 
 -- Operators
@@ -229,10 +230,5 @@ image region s v = case v of
     let d = Curve.transformed s c in CurveValue d <$ mapM_ reachable (Curve.ends d)
   _ -> bug "a transformation of something else"
   where
-    moved c =
-      c
-        { elements = fmap (\e -> e {segment = Transformation.segment s (segment e)}) (elements c),
-          breaks = map (Transformation.point s) (breaks c),
-          writtenElements = []
-        }
+    moved = PartTransformation.image s
     reachable = within region . Vec.norm . offset

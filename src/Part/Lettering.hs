@@ -45,6 +45,7 @@ import Part.Part (Contour (..), ContourElement (..), Element (..))
 import Part.PlaneRegion (PlaneRegion (..))
 import Part.PlaneRegion qualified as PlaneRegion
 import Part.RegionBuiltin qualified as RegionBuiltin
+import Part.Transformation qualified as PartTransformation
 import Part.Value (Argument (Plain), Value (..))
 import Part.Value qualified as Value
 
@@ -166,14 +167,13 @@ combined name operation =
 -- contour of its written elements.
 movedTo :: Located Name -> Region -> Transformation -> Contour -> Contour
 movedTo name at t c =
-  c
+  image
     { contourName = name,
-      elements = fmap moved (elements c),
-      breaks = map (Transformation.point t) (breaks c),
+      elements = fmap (\e -> e {origin = at}) (elements image),
       writtenElements = map written (writtenElements c)
     }
   where
-    moved e = e {segment = Transformation.segment t (segment e), origin = at}
+    image = PartTransformation.image t c
     written w =
       w
         { elementRegion = at,

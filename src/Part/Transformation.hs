@@ -3,6 +3,7 @@
 module Part.Transformation
   ( operation,
     solid,
+    image,
   )
 where
 

@@ -58,7 +58,7 @@ deepParts tip branch = collect (map cut (NonEmpty.toList branch))
 -- | The branches of a medial axis in chains. A branch without length is a chain by itself, if no
 -- other branch ends there. Branches up to the length @most@ are carved there and back.
 chains :: Mm -> [Branch] -> [NonEmpty Branch]
-chains most found = walks (freeEnds <> map fst (IntMap.toList from)) graph IntSet.empty
+chains most found = walks (IntMap.keys freeEnds <> IntMap.keys from) graph IntSet.empty
   where
     (_, joined) = mapAccumL withNodes (Nodes 0 Map.empty) found
     -- One numbering for all, so that no number stands for two branches.
@@ -69,13 +69,11 @@ chains most found = walks (freeEnds <> map fst (IntMap.toList from)) graph IntSe
       IntMap.fromListWith
         (flip (<>))
         (concat [[(a, [(k, z, b)]), (z, [(k, a, backwards b)])] | (k, (a, z, b)) <- list])
-    freeEnds = [n | (n, [_]) <- IntMap.toList from]
+    freeEnds = IntMap.filter ((== 1) . length) from
     graph = fmap (map outward) from
     outward (k, next, b) =
       Outward {edge = k, next, along = b, returns = isFree next && branchLength b <= most}
-    isFree n = case IntMap.lookup n from of
-      Just [_] -> True
-      _ -> False
+    isFree n = IntMap.member n freeEnds
 
 -- | A branch at a node: its number, the node at its other end, the branch in the direction away
 -- from the node, and true if it is short and leads to a free end.
@@ -107,6 +105,7 @@ hasLength s = case s of
   Sloping d e -> discCentre d /= discCentre e
   Level g _ -> Segment.length g > Mm 0
 
+-- | The length of the path of the centre along a branch.
 branchLength :: Branch -> Mm
 branchLength = total . map lengthOf . NonEmpty.toList
   where

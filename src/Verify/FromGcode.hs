@@ -69,7 +69,6 @@ settingOf :: Machine -> ProgramForm -> FileHeading -> FrameProgram -> ToFrames.F
 settingOf machine form heading program =
   ToFrames.FileSetting
     { ToFrames.machine,
-      ToFrames.pulsesAt = ToFrames.inPulses machine,
       ToFrames.level = levelOf machine form heading program,
       ToFrames.firstNumber = firstTool heading,
       ToFrames.tips = tipsOf machine form heading,
