@@ -255,8 +255,8 @@ endDiscs c m =
 -- mm. The result is exact for most edges that the discs touch.
 --
 -- The distance from a line changes evenly along a straight path. The distance from a circle around
--- the path is a concave function, so that the discs go furthest beyond it at an end. For a circle
--- beside the path, the distance from one of its tangents is a bound.
+-- the path is a concave function, so that the discs go furthest beyond it at an end. From any other
+-- circle, a point is at least as far as it lies beyond one of its tangents.
 mayOverlap :: Double -> (Segment, Double, Double) -> Segment -> Bool
 mayOverlap most (path, r0, r1) edge = case (path, edge) of
   (Arc {}, _) -> max r0 r1 - Fast.apart path edge > limit
@@ -266,7 +266,7 @@ mayOverlap most (path, r0, r1) edge = case (path, edge) of
      in beside (abs s0) (abs s1) || s0 * s1 < 0
   (Straight a b, Arc {start, centre = o})
     | d0 <= big && d1 <= big -> beside (big - d0) (big - d1)
-    | otherwise -> s0 < 0 || s1 < 0 || beside s0 s1
+    | otherwise -> beside s0 s1
     where
       Mm big = Segment.radius o start
       (Mm d0, Mm d1) = (Vec.distance o a, Vec.distance o b)
