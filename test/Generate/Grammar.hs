@@ -5,12 +5,14 @@ module Generate.Grammar
     loose,
     literals,
     sentence,
+    sentenceWith,
     recognises,
+    contains,
   )
 where
 
 import Data.Char (isAlpha, isSpace)
-import Data.List (sort, (\\))
+import Data.List (elemIndex, sort, (\\))
 import Data.Map (Map)
 import Data.Map qualified as Map
 import Data.Set (Set)
@@ -133,52 +135,103 @@ data Mark = Written Text | LineEnd | Touching
 -- | A random sentence. Statements and the lines of tables begin on lines of their own, and the
 -- parenthesis of a call touches its name.
 sentence :: Grammar -> Gen Text
-sentence (Grammar known) = choose (16, 44) >>= \fuel -> spaced <$> derive fuel (Named "program")
+sentence grammar =
+  choose (16, 44) >>= \fuel -> spaced <$> derive grammar fuel (Named "program")
+
+-- | A random sentence that contains a literal of the grammar. The derivation goes to the literal by
+-- the fewest named rules; everything beside this path is random.
+sentenceWith :: Text -> Grammar -> Gen Text
+sentenceWith literal grammar@(Grammar known) =
+  choose (16, 44) >>= \fuel -> spaced <$> toward fuel (Named "program")
   where
-    derive :: Int -> Rule -> Gen [Mark]
-    derive fuel rule = case rule of
+    toward :: Int -> Rule -> Gen [Mark]
+    toward fuel rule = case rule of
       Literal text -> pure [Written text]
-      Sequence rs -> concat <$> traverse (derive fuel) rs
-      Choice rs -> elements (affordable fuel rs) >>= derive fuel
+      Sequence rs -> case elemIndex (distance rule) (map distance rs) of
+        Just k -> concat <$> traverse (part k) (zip [0 ..] rs)
+        Nothing -> pure []
+        where
+          part k (j, r) = if j == k then toward fuel r else derive grammar fuel r
+      Choice rs -> elements [r | r <- rs, distance r == distance rule] >>= toward fuel
+      Many r -> toward fuel r
+      Optional r -> toward fuel r
+      Named name -> around name (toward (below name fuel) (ruleOf grammar name))
+    distance = distanceIn distances
+    distances = settle known distanceIn
+    -- The fewest named rules between a rule and the literal.
+    distanceIn now rule = case rule of
+      Literal text -> if text == literal then 0 else unreached
+      Named name -> 1 + Map.findWithDefault unreached name now
+      Sequence rs -> minimum (unreached : map (distanceIn now) rs)
+      Choice rs -> minimum (unreached : map (distanceIn now) rs)
+      Many r -> distanceIn now r
+      Optional r -> distanceIn now r
+
+-- | A random derivation of a rule. The fuel bounds its depth: rules whose height exceeds the fuel
+-- are avoided.
+derive :: Grammar -> Int -> Rule -> Gen [Mark]
+derive grammar@(Grammar known) = go
+  where
+    go :: Int -> Rule -> Gen [Mark]
+    go fuel rule = case rule of
+      Literal text -> pure [Written text]
+      Sequence rs -> concat <$> traverse (go fuel) rs
+      Choice rs -> elements (affordable fuel rs) >>= go fuel
       Many r
         | height r > fuel -> pure []
-        | otherwise -> times r >>= \k -> concat <$> vectorOf k (derive fuel r)
+        | otherwise -> times r >>= \k -> concat <$> vectorOf k (go fuel r)
       Optional r
         | height r > fuel -> pure []
-        | otherwise -> frequency [(3, pure []), (1, derive fuel r)]
+        | otherwise -> frequency [(3, pure []), (1, go fuel r)]
       Named "name" -> word ["a", "lug", "радиус", "depth", "step", "at", "line"]
       Named "number" -> word ["0", "41", "59.3", "007"]
       Named "text" -> word ["\"\"", "\"Фланец, фиг. 2\""]
       Named "machine-name" -> word ["lkp-01f", "2.5-ax"]
-      Named name ->
-        around name (derive (below name fuel) (Map.findWithDefault (Sequence []) name known))
-    -- The fuel bounds the depth of a derivation: rules whose height exceeds it are avoided. Blocks
-    -- and expressions use up much of it.
-    below name fuel
-      | name `elem` ["items", "statements"] = fuel - 9
-      | name == "expr" = min 32 fuel - 6
-      | otherwise = fuel - 1
+      Named name -> around name (go (below name fuel) (ruleOf grammar name))
     word texts = (\text -> [Written text]) <$> elements texts
     -- There are several statements and items, but few operators, so that sentences stay short.
     times r = case r of
       Named name | name `elem` ["statement", "item", "setting"] -> choose (0, 3 :: Int)
       _ -> frequency [(10, pure 0), (2, pure 1), (1, pure 2)]
-    around name marked = case name of
-      "statement" -> (LineEnd :) <$> marked
-      "line" -> (LineEnd :) <$> marked
-      "arguments" -> (Touching :) <$> marked
-      "values" -> (Touching :) <$> marked
-      "parameters" -> (Touching :) <$> marked
-      -- An item that begins with a minus would continue the line before it.
-      "item" -> marked `suchThat` ((/= [Written "-"]) . take 1)
-      _ -> marked
     -- The alternatives whose height is at most the fuel, or else those of least height.
     affordable fuel rs = case filter ((<= fuel) . height) rs of
       [] -> [r | r <- rs, height r == minimum (map height rs)]
       some -> some
     height = heightIn heights
-    heights = settle (fmap (const 1000) known)
-    settle now = let new = fmap (heightIn now) known in if new == now then now else settle new
+    heights = settle known heightIn
+
+-- | The right-hand side of a named rule.
+ruleOf :: Grammar -> Text -> Rule
+ruleOf (Grammar known) name = Map.findWithDefault (Sequence []) name known
+
+-- | The fuel that is left inside a named rule. Blocks and expressions use up much of it.
+below :: Text -> Int -> Int
+below name fuel
+  | name `elem` ["items", "statements"] = fuel - 9
+  | name == "expr" = min 32 fuel - 6
+  | otherwise = fuel - 1
+
+-- | A derivation of a named rule, with the ends of lines and the absent spaces before it.
+around :: Text -> Gen [Mark] -> Gen [Mark]
+around name marked = case name of
+  "statement" -> (LineEnd :) <$> marked
+  "line" -> (LineEnd :) <$> marked
+  "arguments" -> (Touching :) <$> marked
+  "values" -> (Touching :) <$> marked
+  "parameters" -> (Touching :) <$> marked
+  -- An item that begins with a minus would continue the line before it.
+  "item" -> marked `suchThat` ((/= [Written "-"]) . take 1)
+  _ -> marked
+
+-- | The number of a rule that has none.
+unreached :: Int
+unreached = 1000
+
+-- | The least numbers of all rules that agree with one another.
+settle :: Map Text Rule -> (Map Text Int -> Rule -> Int) -> Map Text Int
+settle known number = go (fmap (const unreached) known)
+  where
+    go now = let new = fmap (number now) known in if new == now then now else go new
 
 -- | The height of a rule: the least number of named rules inside one another in a derivation.
 heightIn :: Map Text Int -> Rule -> Int
@@ -229,6 +282,10 @@ recognises (Grammar known) tokens = Set.member finish (ends 0 (Named "program"))
         let new = unions [ends x r | x <- Set.toList fresh] `Set.difference` seen
          in closure r (Set.union seen new) new
     unions = Set.unions :: [Set Int] -> Set Int
+
+-- | Tells if a literal is among tokens.
+contains :: Text -> [Token] -> Bool
+contains literal = any (`elem` [Word literal, Symbol literal]) . concatMap (parts . shape)
 
 -- | The tokens of the grammar for a token of the lexer: a number and its unit are two tokens.
 parts :: Token_ -> [Token_]
