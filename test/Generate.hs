@@ -196,7 +196,7 @@ job c =
           (here (Name "c"))
           (ends (contour c))
           ( fmap
-              (\s -> Element s (Region 0 0) Part.plainFinish False False Nothing)
+              (\s -> Element s (Region 0 0) Part.plainFinish False False Nothing Nothing)
               (segments (contour c))
           )
           []

@@ -1,18 +1,12 @@
--- | The curves of the elements of contours. A contour has arcs and lines in the place of a curve.
--- This module finds the exact curve, and the part of it along which these arcs run.
+-- | The part of an exact curve along which the arcs and lines of a contour run.
 module Export.ElementCurve
-  ( ElementCurves,
-    ofContours,
-    along,
+  ( along,
   )
 where
 
-import Base.Quantity (Mm)
-import Base.Region (Region)
+import Base.Quantity (Mm (..), plus)
 import Data.List.NonEmpty (NonEmpty (..))
 import Data.List.NonEmpty qualified as NonEmpty
-import Data.Map.Strict (Map)
-import Data.Map.Strict qualified as Map
 import Data.Maybe (isJust, listToMaybe, mapMaybe)
 import Data.Semigroup (sconcat)
 import Data.Vector qualified as Vector
@@ -28,34 +22,10 @@ import Geometry.Segment (Segment)
 import Geometry.Segment qualified as Segment
 import Geometry.Vec (Point)
 import Geometry.Vec qualified as Vec
-import Part.Curve (PartCurve (exact))
-import Part.Part (Contour, ContourElement (elementCurve, elementRegion))
-import Part.Part qualified as Part
+import Part.Part (ReplacedCurve (..))
 
--- | The curves of the elements, by the regions of the elements. A repetition or a function gives
--- several curves to one region. Each curve is evaluated when it is needed.
-newtype ElementCurves = ElementCurves (Map Region [Pieces])
-
--- | The cubic curves of an element in its direction, and true if they end where they begin.
+-- | The cubic curves of a curve, and true if they end where they begin.
 data Pieces = Pieces {cubics :: NonEmpty CubicBezier, isClosed :: Bool}
-
--- | The curves of the elements of contours. A curve that consists of lines and arcs is left out,
--- because its contour has the same lines and arcs.
-ofContours :: [Contour] -> ElementCurves
-ofContours contours =
-  ElementCurves $
-    Map.fromListWith
-      (flip (<>))
-      [ (elementRegion e, [Pieces pieces (Vec.isNear (startOf pieces) (endOf pieces))])
-        | c <- contours,
-          e <- Part.writtenElements c,
-          Just curve <- [elementCurve e],
-          Just pieces <- [piecesOf (exact curve)],
-          not (all Bezier.isStraight pieces)
-      ]
-  where
-    startOf = Bezier.start . NonEmpty.head
-    endOf = Bezier.end . NonEmpty.last
 
 -- | The cubic curves of a curve. Nothing if it consists of lines and arcs only, or if
 -- 'Curve.cubics' finds no cubics for a shifted curve.
@@ -70,31 +40,35 @@ piecesOf curve
     joined spans =
       fmap sconcat . NonEmpty.nonEmpty =<< traverse (Bezier.fromSpan Tolerance.cubic) spans
 
--- | The cubic curves along the segments of an element, from the start of the first segment to the
--- end of the last one. @at@ is the region of the element. Nothing if the element has no curve, or
--- if its curve does not pass through the ends and the middles of all segments, because the contour
--- was transformed.
-along :: ElementCurves -> Region -> NonEmpty Segment -> Maybe (NonEmpty CubicBezier)
-along (ElementCurves known) at segments =
-  listToMaybe (mapMaybe (partAlong nodes) (Map.findWithDefault [] at known))
+-- | The cubic curves along segments that replace a part of a curve, from the start of the first
+-- segment to the end of the last one. Nothing if the curve does not pass through the ends and the
+-- middles of all segments, or if it consists of lines and arcs, because the segments are the same.
+along :: ReplacedCurve -> NonEmpty Segment -> Maybe (NonEmpty CubicBezier)
+along ReplacedCurve {exact, deviation} segments = do
+  cubics <- piecesOf exact
+  let begin = Bezier.start (NonEmpty.head cubics)
+      isClosed = Vec.isNear begin (Bezier.end (NonEmpty.last cubics))
+  if all Bezier.isStraight cubics
+    then Nothing
+    else partAlong (plus Tolerance.onCurve deviation) nodes Pieces {cubics, isClosed}
   where
     nodes =
       Segment.start (NonEmpty.head segments) :
       concat [[Segment.at 0.5 s, Segment.end s] | s <- NonEmpty.toList segments]
 
--- | The part of a curve between the first and the last node, if the curve passes through all nodes
--- in their order or in the opposite one.
-partAlong :: [Point] -> Pieces -> Maybe (NonEmpty CubicBezier)
-partAlong nodes pieces =
-  listToMaybe (mapMaybe (partForwards nodes) [pieces, backwards])
+-- | The part of a curve between the first and the last node, if the curve passes all nodes within
+-- @reach@, in their order or in the opposite one.
+partAlong :: Mm -> [Point] -> Pieces -> Maybe (NonEmpty CubicBezier)
+partAlong reach nodes pieces =
+  listToMaybe (mapMaybe (partForwards reach nodes) [pieces, backwards])
   where
     backwards = pieces {cubics = NonEmpty.reverse (fmap Bezier.reversed (cubics pieces))}
 
--- | The part of a curve between the first and the last node, if it passes through all of them in
--- their order. In a closed curve the part may lead over the end of the curve.
-partForwards :: [Point] -> Pieces -> Maybe (NonEmpty CubicBezier)
-partForwards nodes Pieces {cubics, isClosed} = do
-  found <- traverse (position Tolerance.onCurve numbered) nodes
+-- | The part of a curve between the first and the last node, if it passes all of them within
+-- @reach@, in their order. In a closed curve the part may lead over the end of the curve.
+partForwards :: Mm -> [Point] -> Pieces -> Maybe (NonEmpty CubicBezier)
+partForwards reach nodes Pieces {cubics, isClosed} = do
+  found <- traverse (position reach numbered) nodes
   let begin = onSeam 0 (listToMaybe found)
       stations = begin : drop 1 found
       final = onSeam whole (listToMaybe (reverse stations))

@@ -20,12 +20,16 @@ import Export.CadDrawing
     CadObject (..),
     OutlinePiece (..),
   )
-import Export.ElementCurve (ElementCurves)
 import Export.ElementCurve qualified as ElementCurve
 import Geometry.Carrier (Circle (Circle))
 import Geometry.Segment qualified as Segment
 import Geometry.Vec qualified as Vec
-import Part.Part (Contour (elements, ends), Element (ofCurve, origin, segment), Part, Solid (..))
+import Part.Part
+  ( Contour (elements, ends),
+    Element (ofCurve, origin, replaced, segment),
+    Part,
+    Solid (..),
+  )
 import Part.Part qualified as Part
 import Toolpath.Toolpath (Block (..), Move, Pass, Toolpath)
 import Toolpath.Toolpath qualified as Toolpath
@@ -38,16 +42,15 @@ drawing part path =
     { title = fromMaybe (maybe "" text (Part.name part)) (Part.title part),
       unit = Part.unit part,
       objects =
-        [CadObject PartLayer (outline (piecesOf curves c) (Mm 0, Mm 0) c) | c <- contours]
+        [ CadObject PartLayer (outline (piecesOf c) (Mm 0, Mm 0) c)
+          | (c, _, _) <- sidedContours part
+        ]
           <> map (CadObject HoleLayer) (holesOf part)
           <> concat [solid StockLayer s | Just (Located _ s) <- [Part.stock part]]
           <> concat [solid ClampLayer s | Located _ s <- Part.avoided part]
           <> concatMap motionsOf (Toolpath.blocks path)
           <> concatMap (nodesOf (isLastPass path)) (Toolpath.blocks path)
     }
-  where
-    contours = [c | (c, _, _) <- sidedContours part]
-    curves = ElementCurve.ofContours (Part.contours part <> contours)
 
 -- | The outlines of a solid, from its bottom to its top. Curves are arcs here.
 solid :: CadLayer -> Solid -> [CadObject]
@@ -62,9 +65,9 @@ outline pieces heights c = Outline name (ends c) heights pieces
     Located _ (Name name) = Part.contourName c
 
 -- | The pieces of a contour. The arcs of a curve become the curve, where 'ElementCurve.along' finds
--- it.
-piecesOf :: ElementCurves -> Contour -> NonEmpty OutlinePiece
-piecesOf curves c =
+-- its part.
+piecesOf :: Contour -> NonEmpty OutlinePiece
+piecesOf c =
   merged (sconcat (fmap piecesOfRun (NonEmpty.groupBy1 isOneCurve (elements c))))
   where
     isOneCurve a b = ofCurve a && ofCurve b && origin a == origin b
@@ -76,7 +79,9 @@ piecesOf curves c =
         Nothing -> case Part.curveRuns (NonEmpty.toList run) of
           first : others -> fmap (\r -> fromMaybe (chain r) (along r)) (first :| others)
           [] -> chain run :| []
-    along run@(e :| _) = Smooth <$> ElementCurve.along curves (origin e) (fmap segment run)
+    along run@(e :| _) = do
+      curve <- replaced e
+      Smooth <$> ElementCurve.along curve (fmap segment run)
     chain = Chain . fmap segment
 
 -- | Pieces in which neighbouring chains are one chain.

@@ -15,11 +15,11 @@ import Base.Quantity (Mm (..))
 cubic :: Mm
 cubic = Mm 1e-6
 
--- | The largest distance between a curve and a node of the arcs that replace it in a contour. The
--- arcs are within 'Geometry.Tolerance.curve' of the curve, and the drawing's cubics within 'cubic'.
--- The rest is for the links, which join the arcs of a curve to its neighbours.
+-- | The largest distance between a curve and a node of the arcs that replace it in a contour, in
+-- addition to the distance that these arcs may have from the curve. The drawing's cubics are within
+-- 'cubic' of the curve. The rest is for the links, which join the arcs to their neighbours.
 onCurve :: Mm
-onCurve = Mm 2e-5
+onCurve = Mm 1e-5
 
 -- | The largest distance between the end of an arc and the end that a program computes from the
 -- arc's centre, radius and angle. The centre of a flat arc is so far away that rounding exceeds

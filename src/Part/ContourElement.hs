@@ -188,11 +188,14 @@ linkedElements (ItemPlace whole at mayBeClosed) sense v finish link = case (v, s
                 LinkSolver.ownEnd,
                 LinkSolver.finish,
                 LinkSolver.bevel = [],
-                LinkSolver.sourceCurve = case v of CurveValue c -> Just c; _ -> Nothing,
-                LinkSolver.breaks = case v of CurveValue c -> Curve.breakPoints c; _ -> [],
+                LinkSolver.sourceCurve = given,
+                LinkSolver.replacedCurve = withDeviation <$> given,
+                LinkSolver.breaks = maybe [] Curve.breakPoints given,
                 LinkSolver.link
               }
        in w `seq` pure [w]
+    given = case v of CurveValue c -> Just c; _ -> Nothing
+    withDeviation c = Part.ReplacedCurve (Curve.exact c) Tolerance.curve
 
 -- | The elements that a contour gives when it is used as an element of another contour: one for
 -- each of its lines, arcs and curves. @whole@ is the region of the item that names the contour.
@@ -259,6 +262,7 @@ elementOfRun whole finish run@(e :| more) link =
         [(0, b) | Just (b, _) <- [Part.bevel e]]
           <> [(s, b) | (s, Just (_, b)) <- zip ends' (map Part.bevel (NonEmpty.toList run))],
       LinkSolver.sourceCurve = Nothing,
+      LinkSolver.replacedCurve = Part.replaced e,
       LinkSolver.breaks = [],
       LinkSolver.link
     }

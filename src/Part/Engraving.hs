@@ -127,6 +127,7 @@ contourOf name stroke =
           finish = plainFinish,
           continues = False,
           ofCurve = False,
+          replaced = Nothing,
           bevel = Nothing
         }
 

@@ -18,7 +18,7 @@ import Geometry.Vec (Point)
 import Geometry.Vec qualified as Vec
 import Part.Curve (PartCurve (exact))
 import Part.Link (Link (..))
-import Part.Part (Finish)
+import Part.Part (Finish, ReplacedCurve)
 import Part.Tolerance qualified as PartTolerance
 
 -- | An element of a contour, and the link to the element after it.
@@ -37,6 +37,9 @@ data LinkedElement = LinkedElement
     bevel :: [(Double, Double)],
     -- | the exact curve, if the element is a curve
     sourceCurve :: Maybe PartCurve,
+    -- | the curve that the segments replace: that of 'sourceCurve', or that of the contour that is
+    -- used as an element
+    replacedCurve :: Maybe ReplacedCurve,
     -- | the points at which the element may have a break ("Part.Break")
     breaks :: [Point],
     -- | the region of the link, and the link; absent if the program writes no link. The element

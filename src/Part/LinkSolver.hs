@@ -469,20 +469,21 @@ entryStation shape a b = case shape of
 -- at the stations of the bevels. A segment that continues the segment before it without a corner is
 -- marked.
 marked :: LinkedElement -> Mm -> [Segment] -> [Element]
-marked LinkedElement {elementRegion, carrier, finish, bevel} (Mm from) whole = case whole of
+marked w (Mm from) whole = case whole of
   [] -> []
   first : rest | null bevel -> unbevelled False first rest
   _ -> zipWith3 element cuts (False : isContinued) (zip marks (drop 1 marks))
   where
     unbevelled continues s rest =
-      let e = Element s elementRegion finish continues isCurve Nothing
+      let e = Element s elementRegion finish continues isCurve replacedCurve Nothing
        in e `seq` (e : continued s rest)
     continued s rest = case rest of
       [] -> []
       next : more -> unbevelled (isSmooth s next) next more
     element s continues (a, b) =
       let bevels = (,) <$> interpolated angles a <*> interpolated angles b
-       in Element s elementRegion finish continues isCurve bevels
+       in Element s elementRegion finish continues isCurve replacedCurve bevels
+    LinkedElement {elementRegion, carrier, finish, bevel, replacedCurve} = w
     (isCurve, closedLength) = case carrier of
       OnCurve c ->
         (True, if MeasuredPolyarc.isClosed c then Just (MeasuredPolyarc.length c) else Nothing)
@@ -562,7 +563,7 @@ withoutChoice linked begin before final
 between :: LinkedElement -> Point -> Maybe Segment -> Joint -> [Element]
 between w@LinkedElement {elementRegion, carrier, link} at before joint =
   marked w (entryStation carrier at (leave joint)) segments
-    <> [ Element s (maybe elementRegion fst link) plainFinish False False Nothing
+    <> [ Element s (maybe elementRegion fst link) plainFinish False False Nothing Nothing
          | Just s <- [inserted joint]
        ]
   where

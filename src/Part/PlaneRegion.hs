@@ -317,6 +317,7 @@ offsetElements at loop = NonEmpty.zipWith element (NonEmpty.last loop :| NonEmpt
           finish = plainFinish,
           continues = wasOfCurve && isOfCurve && isSmooth p s,
           ofCurve = isOfCurve,
+          replaced = Nothing,
           bevel = Nothing
         }
     isSmooth p s =

@@ -241,5 +241,6 @@ contourOfShape at name segments =
           finish = plainFinish,
           continues = isContinued s,
           ofCurve = isOfCurve s,
+          replaced = shapeCurve s,
           bevel = Nothing
         }

@@ -24,6 +24,7 @@ import Data.Ord (comparing)
 import Geometry.ArcFitting.ParametricFit (ParametricCurve (..))
 import Geometry.ArcFitting.ParametricFit qualified as ParametricFit
 import Geometry.Carrier (Circle (Circle), Line (Line), Sense (..))
+import Geometry.Curve qualified as Curve
 import Geometry.Polyarc qualified as Polyarc
 import Geometry.Segment (Segment (..))
 import Geometry.Segment qualified as Segment
@@ -31,6 +32,7 @@ import Geometry.Tolerance qualified as Tolerance
 import Geometry.Transformation qualified as Transformation
 import Geometry.Vec (Point)
 import Geometry.Vec qualified as Vec
+import Part.Contour (ReplacedCurve (ReplacedCurve))
 import Part.Tolerance qualified as PartTolerance
 
 -- | A segment of a shape.
@@ -39,6 +41,8 @@ data ShapeSegment = ShapeSegment
     isOfCurve :: Bool,
     -- | true if the segment continues the one before it in the same curve
     isContinued :: Bool,
+    -- | the curve that the segment replaces a part of, if it is known
+    shapeCurve :: Maybe ReplacedCurve,
     shapeSegment :: Segment
   }
   deriving stock (Eq, Show)
@@ -142,9 +146,12 @@ polygon corners
 ellipse :: Point -> Mm -> Mm -> Rad -> NonEmpty ShapeSegment
 ellipse o (Mm a) (Mm b) turn =
   NonEmpty.map
-    (\s -> ShapeSegment {isOfCurve = True, isContinued = True, shapeSegment = s})
+    (\s -> ShapeSegment {isOfCurve = True, isContinued = True, shapeCurve, shapeSegment = s})
     (gapless (foldr1 (<>) (ParametricFit.approximate PartTolerance.shape curve)))
   where
+    shapeCurve = case Curve.ellipse o (Mm a) (Mm b) turn (Rad 0) (Rad (2 * pi)) of
+      Right exact -> Just (ReplacedCurve exact PartTolerance.shape)
+      Left _ -> Nothing
     curve =
       ParametricCurve
         { place = \t -> Vec.shift (Vec.rotate turn (Vec.vec (a * cos t) (b * sin t))) o,
@@ -226,7 +233,7 @@ flank g low tip =
 -- | Segments that replace a curve, in order.
 curved :: [Segment] -> [ShapeSegment]
 curved segments =
-  [ ShapeSegment {isOfCurve = True, isContinued, shapeSegment}
+  [ ShapeSegment {isOfCurve = True, isContinued, shapeCurve = Nothing, shapeSegment}
     | (isContinued, shapeSegment) <- zip (False : repeat True) segments
   ]
 
@@ -239,7 +246,8 @@ closed segments = case filter isLong segments of
     isLong s = Segment.length s > Mm short
 
 plain :: Segment -> ShapeSegment
-plain s = ShapeSegment {isOfCurve = False, isContinued = False, shapeSegment = s}
+plain s =
+  ShapeSegment {isOfCurve = False, isContinued = False, shapeCurve = Nothing, shapeSegment = s}
 
 -- | The segments, each of which begins exactly where the one before ends.
 gapless :: NonEmpty Segment -> NonEmpty Segment

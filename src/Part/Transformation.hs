@@ -12,6 +12,7 @@ import Data.List.NonEmpty qualified as NonEmpty
 import Geometry.Transformation (Transformation)
 import Geometry.Transformation qualified as Transformation
 import Geometry.Vec qualified as Vec
+import Part.Contour (transformedCurve)
 import Part.Part
 
 -- | The image of a solid under the transformation @s@, which does not change its heights.
@@ -31,7 +32,11 @@ image s c =
       writtenElements = []
     }
   where
-    moved e = e {segment = Transformation.segment s (segment e)}
+    moved e =
+      e
+        { segment = Transformation.segment s (segment e),
+          replaced = transformedCurve s <$> replaced e
+        }
 
 -- | The image of the operation @o@ under the transformation @s@. If @s@ mirrors, left and right are
 -- swapped.

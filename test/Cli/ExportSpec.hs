@@ -21,6 +21,33 @@ spec = describe "drawings for CAD programs" $ do
     out `shouldSatisfy` ("  0\nSECTION\n" `isPrefixOf`)
     partc ["export", "-q", "examples/flange.part", "-o", "-"]
       `shouldReturn` (ExitSuccess, out, "")
+  it "have splines for curves that move with their contours (catches arcs in their place)" $
+    inFolder $ \folder -> do
+      let kinds text = [k | ("  0", k) <- zip (lines text) (drop 1 (lines text))]
+          splines body = do
+            writeFile (folder </> "p.part") (unlines ("part p" : "from (0, 0)" : arch : body))
+            (code, out, _) <- partc ["export", "-q", folder </> "p.part"]
+            pure (code, length (filter (== "SPLINE") (kinds out)))
+      -- The contours in which the program writes the curve are drawn, too.
+      splines [written] `shouldReturn` (ExitSuccess, 1)
+      splines [written, "contour n closed { a rotated(a, 180, (20, 0)) }"]
+        `shouldReturn` (ExitSuccess, 3)
+      splines
+        [ written,
+          "contour n closed {",
+          "  mirrored(scaled(a, 3), line((0, -10), (1, -10)))",
+          "  line((120, -20), (0, -20))",
+          "}"
+        ]
+        `shouldReturn` (ExitSuccess, 2)
+      splines ["contour n closed { ellipse((25, 60), 28, 14, 20) }"] `shouldReturn` (ExitSuccess, 1)
+      splines ["let s = moved(union(ellipse((0, 0), 9, 5), ellipse((9, 0), 9, 5)), (3, 4))"]
+        `shouldReturn` (ExitSuccess, 2)
+      splines
+        [ "let leaf(p) = moved(ellipse(p, 10, 5, 0, 180, 0), (3, 4))",
+          "contour n closed { leaf((0, 0)) line((13, 4), (-7, 4)) }"
+        ]
+        `shouldReturn` (ExitSuccess, 1)
   it "are refused in another form (catches a file that nothing can read)" $
     inFolder $ \folder -> do
       (code, _, complaint) <- exported folder "a.dwg"
@@ -44,6 +71,8 @@ spec = describe "drawings for CAD programs" $ do
       code `shouldBe` ExitFailure 1
       doesFileExist (folder </> "p.dxf") `shouldReturn` False
   where
+    arch = "curve arch = bezier([(0, 0), (10, 20), (30, 25), (40, 0)])"
+    written = "contour a open { arch }"
     exported folder name = partc ["export", "-q", "examples/flange.part", "-o", folder </> name]
     beginning folder name = do
       (code, _, _) <- exported folder name

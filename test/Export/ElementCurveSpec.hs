@@ -14,16 +14,17 @@ import Export.ElementCurve qualified as ElementCurve
 import Generate.Curve qualified as Curves
 import Geometry.Curve (Curve)
 import Geometry.Distance qualified as Distance
-import Geometry.ElementCarrier (ElementCarrier (OnCurve))
 import Geometry.MeasuredPolyarc qualified as MeasuredPolyarc
 import Geometry.Segment (Segment)
 import Geometry.Segment qualified as Segment
+import Geometry.Tolerance qualified as Tolerance
 import Geometry.Transformation qualified as Transformation
 import Geometry.Vec (Point)
 import Geometry.Vec qualified as Vec
 import Part.Curve qualified as PartCurve
-import Part.Part (Contour (Contour), ContourElement (ContourElement), Element (Element))
+import Part.Part (Contour (Contour), Element (Element), ReplacedCurve (ReplacedCurve))
 import Part.Part qualified as Part
+import Part.Transformation qualified as PartTransformation
 import Test.Hspec
 import Test.QuickCheck
 
@@ -34,7 +35,7 @@ spec = describe "curves of elements" $ do
       forAll (part (arcsOf exact)) $ \segments ->
         forAll arbitrary $ \isTurned ->
           let given = if isTurned then backwards segments else segments
-              found = ElementCurve.along (ElementCurve.ofContours [contour exact]) place given
+              found = ElementCurve.along (replacing exact) given
            in cover 90 (isJust found) "curves are found" $
                 case found of
                   Nothing -> counterexample "no curve" (property (all isLine segments))
@@ -48,7 +49,20 @@ spec = describe "curves of elements" $ do
     forAll curve $ \exact ->
       let shift = Transformation.translation (Vec.vec 0.01 0.01)
           moved = fmap (Transformation.segment shift) (arcsOf exact)
-       in isNothing (ElementCurve.along (ElementCurve.ofContours [contour exact]) place moved)
+       in isNothing (ElementCurve.along (replacing exact) moved)
+  it "move with a contour (catches a curve that stays behind, or is not scaled)" $
+    forAll curve $ \exact ->
+      forAll Curves.similarity $ \s ->
+        let moved = Part.elements (PartTransformation.image s (contour exact))
+            given = fmap Part.segment moved
+            found = do
+              own <- Part.replaced (NonEmpty.head moved)
+              ElementCurve.along own given
+         in cover 90 (isJust found) "curves are found" $ case found of
+              Nothing -> counterexample "no curve" (property (all isLine given))
+              Just curves ->
+                counterexample (show (deviation given curves)) $
+                  deviation given curves <= 3e-5 * max 1 (Transformation.factor s)
   where
     firstOf = Segment.start . NonEmpty.head
     lastOf = Segment.end . NonEmpty.last
@@ -68,10 +82,11 @@ part segments = do
     [a, b] | some : others <- take (b - a) (NonEmpty.drop a segments) -> pure (some :| others)
     _ -> pure segments
 
-place :: Region
-place = Region 10 20
+-- | A curve that arcs replace.
+replacing :: Curve -> ReplacedCurve
+replacing exact = ReplacedCurve exact Tolerance.curve
 
--- | A contour of one element, which is a curve.
+-- | A contour that consists of a curve.
 contour :: Curve -> Contour
 contour exact =
   Contour
@@ -79,18 +94,10 @@ contour exact =
       Part.ends = Part.Open,
       Part.elements = fmap element (arcsOf exact),
       Part.breaks = [],
-      Part.writtenElements =
-        [ ContourElement
-            { Part.elementRegion = place,
-              Part.elementCarrier = OnCurve (PartCurve.approximation curve),
-              Part.elementCurve = Just curve,
-              Part.elementFinish = Part.plainFinish,
-              Part.link = Nothing
-            }
-        ]
+      Part.writtenElements = []
     }
   where
-    curve = PartCurve.plain exact
+    place = Region 10 20
     element segment =
       Element
         { Part.segment,
@@ -98,6 +105,7 @@ contour exact =
           Part.finish = Part.plainFinish,
           Part.continues = True,
           Part.ofCurve = True,
+          Part.replaced = Just (replacing exact),
           Part.bevel = Nothing
         }
 

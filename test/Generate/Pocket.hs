@@ -144,7 +144,7 @@ pocketing before p =
       Part.Contour
         (here (Name "c"))
         Polyarc.Closed
-        (fmap (\s -> Part.Element s (Region 0 0) Part.plainFinish False False Nothing) loop)
+        (fmap (\s -> Part.Element s (Region 0 0) Part.plainFinish False False Nothing Nothing) loop)
         []
         []
 

@@ -165,7 +165,10 @@ parts n s
 elements :: [[Segment]] -> [Element]
 elements =
   concatMap
-    (zipWith (\k s -> Element s (Region 0 0) Part.plainFinish (k > 0) True Nothing) [0 :: Int ..])
+    ( zipWith
+        (\k s -> Element s (Region 0 0) Part.plainFinish (k > 0) True Nothing Nothing)
+        [0 :: Int ..]
+    )
 
 -- | The rapid moves along the segments of one curve, at height 0.
 run :: [Segment] -> NonEmpty Move

@@ -67,6 +67,7 @@ clamp =
           finish = Part.plainFinish,
           continues = False,
           ofCurve = False,
+          replaced = Nothing,
           bevel = Nothing
         }
     corner :: (Double, Double) -> Point

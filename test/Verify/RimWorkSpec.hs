@@ -125,3 +125,4 @@ kept work r sense side isBeside =
         False
         False
         Nothing
+        Nothing
