@@ -20,15 +20,19 @@ import Verify.Proof qualified as Proof
 
 -- | The proof as text. A table has two rows for each contour: one for the largest gouge, one for
 -- the largest excess. A row has this value in the given unit, the allowed value, and the number of
--- the frame where the value occurs. Facts about the whole tape and the verdict follow.
+-- the frame where the value occurs. Without contours there is no table. Facts about the whole tape
+-- and the verdict follow.
 proof :: LengthUnit -> Machine -> Proof -> Text
 proof unit machine p =
-  Table.columns
-    [ToLeft, ToRight, ToLeft, ToRight, ToRight]
-    (header : concatMap contourRows (Proof.contourProofs p))
-    <> "\n"
-    <> Table.columns [ToLeft, ToLeft] closing
+  contours <> Table.columns [ToLeft, ToLeft] closing
   where
+    contours = case Proof.contourProofs p of
+      [] -> ""
+      proofs ->
+        Table.columns
+          [ToLeft, ToRight, ToLeft, ToRight, ToRight]
+          (header : concatMap contourRows proofs)
+          <> "\n"
     header = ["contour", "", Decimal.unitText unit, "allowed", "frame"]
     contourRows c =
       let Name n = value (contour c)
