@@ -12,6 +12,7 @@ module Export.Bezier
     between,
     withStart,
     withEnd,
+    boundingBox,
     nearest,
   )
 where
@@ -22,6 +23,7 @@ import Data.List.NonEmpty (NonEmpty (..))
 import Data.Ord (comparing)
 import Geometry.Curve.Span (Span (..))
 import Geometry.Curve.Spline (Cubic (..))
+import Geometry.Index.BoundingBox (BoundingBox)
 import Geometry.Index.BoundingBox qualified as BoundingBox
 import Geometry.Segment (Segment (Arc, Straight))
 import Geometry.Segment qualified as Segment
@@ -124,16 +126,19 @@ withStart p (CubicBezier _ b c d) = CubicBezier p b c d
 withEnd :: Point -> CubicBezier -> CubicBezier
 withEnd p (CubicBezier a b c _) = CubicBezier a b c p
 
+-- | A box around a curve: that of its control points.
+boundingBox :: CubicBezier -> BoundingBox
+boundingBox (CubicBezier a b c d) = BoundingBox.ofPoints a [b, c, d]
+
 -- | The parameter of the point of a curve that is nearest to the point @p@, and their distance; it
 -- is found from the nearest of nine points by Newton's method. Nothing if the curve is further than
 -- @reach@ from the point.
 nearest :: Mm -> Point -> CubicBezier -> Maybe (Double, Mm)
 nearest reach p curve@(CubicBezier a b c d)
-  | BoundingBox.distance p box > reach = Nothing
+  | BoundingBox.distance p (boundingBox curve) > reach = Nothing
   | snd found <= reach = Just found
   | otherwise = Nothing
   where
-    box = BoundingBox.ofPoints a [b, c, d]
     found = minimumBy (comparing snd) (map measured [0, coarse, 1, refined])
     measured t = (t, Vec.distance p (at t curve))
     coarse = fst (minimumBy (comparing snd) (map (measured . (/ 8)) [0 .. 8]))

@@ -18,6 +18,9 @@ import Geometry.Curve qualified as Curve
 import Geometry.Curve.BasisCurve qualified as BasisCurve
 import Geometry.Curve.Span (Span (Polynomial))
 import Geometry.Curve.Spline qualified as Spline
+import Geometry.Index.BoundingBox qualified as BoundingBox
+import Geometry.Index.BoxTree (BoxTree)
+import Geometry.Index.BoxTree qualified as BoxTree
 import Geometry.Segment (Segment)
 import Geometry.Segment qualified as Segment
 import Geometry.Vec (Point)
@@ -68,7 +71,7 @@ partAlong reach nodes pieces =
 -- @reach@, in their order. In a closed curve the part may lead over the end of the curve.
 partForwards :: Mm -> [Point] -> Pieces -> Maybe (NonEmpty CubicBezier)
 partForwards reach nodes Pieces {cubics, isClosed} = do
-  found <- traverse (position reach numbered) nodes
+  found <- traverse (position reach tree) nodes
   let begin = onSeam 0 (listToMaybe found)
       stations = begin : drop 1 found
       final = onSeam whole (listToMaybe (reverse stations))
@@ -82,6 +85,7 @@ partForwards reach nodes Pieces {cubics, isClosed} = do
   pure (withEnds nodes part)
   where
     numbered = zip [0 ..] (NonEmpty.toList cubics)
+    tree = BoxTree.index (Bezier.boundingBox . snd) numbered
     whole = fromIntegral (length cubics) :: Double
     -- The seam of a closed curve is its start and its end: a node there has both parameters.
     onSeam wanted station = case station of
@@ -98,11 +102,12 @@ partForwards reach nodes Pieces {cubics, isClosed} = do
 
 -- | The parameter of a point on numbered curves: the number of a curve, and the parameter along it.
 -- Nothing if none of the curves passes through the point.
-position :: Mm -> [(Double, CubicBezier)] -> Point -> Maybe Double
+position :: Mm -> BoxTree (Double, CubicBezier) -> Point -> Maybe Double
 position reach numbered p =
   fst <$> foldl nearer Nothing found
   where
-    found = [(i + t, d) | (i, b) <- numbered, Just (t, d) <- [Bezier.nearest reach p b]]
+    found = [(i + t, d) | (i, b) <- near, Just (t, d) <- [Bezier.nearest reach p b]]
+    near = BoxTree.within (BoundingBox.inflate reach (BoundingBox.ofPoints p [])) numbered
     nearer best new = case best of
       Just (_, d) | d <= snd new -> best
       _ -> Just new
