@@ -29,6 +29,8 @@ data Error
     CannotRead Text
   | -- | A file cannot be written. The arguments: its path, the reason.
     CannotWrite Text Text
+  | -- | The output path is not a folder, and there are so many files.
+    NoFolder Text Int
   | -- | A file is not UTF-8 text.
     NotUtf8
   | -- | The command line names no machine for a tape. The list contains the names of the built-in
@@ -105,6 +107,14 @@ toReport :: Error -> Report
 toReport err = case err of
   CannotRead why -> wrong "E0801" InFile ("the file cannot be read: " <> why)
   CannotWrite path why -> wrong "E0802" InFile ("cannot write " <> path <> ": " <> why)
+  NoFolder path count ->
+    (wrong "E0802" InFile ("cannot write into " <> path <> ": this is no folder"))
+      { hints =
+          [ "There are " <> Decimal.whole count
+              <> " files, one for each tool or machine: name an \
+                 \existing folder, or leave -o out to have them beside the program."
+          ]
+      }
   NotUtf8 ->
     (wrong "E0803" InFile "the file is not UTF-8 text")
       { hints = ["Save it as UTF-8 in your editor."]

@@ -57,7 +57,8 @@ tapeNames file machine tools =
 
 -- | Writes the tapes of a program. @name@ is the program's name in reports, @file@ its path.
 -- @sources@ are the files that must not be replaced. @wanted@ is the output path of the command
--- line, if there is one. Nothing is written if two tapes have the same destination.
+-- line, if there is one. Nothing is written if two tapes have the same destination,
+-- or if there is no folder for several tapes.
 writeTapes ::
   Reporter ->
   Text ->
@@ -69,12 +70,17 @@ writeTapes ::
 writeTapes reporter name file sources wanted tapes = do
   destinations <- traverse (destination file wanted (length tapes)) tapes
   clash <- overwritten sources destinations
-  case (clash, firstRepeated destinations) of
-    (Just path, _) -> failWith reporter name (OverwritesProgram (Text.pack path))
-    (Nothing, Just path) -> failWith reporter name (OneForSeveral (Text.pack path))
-    (Nothing, Nothing) -> writeAll reporter (zip destinations (map (bytesOf . content) tapes))
+  noFolder <- filterM (fmap not . doesDirectoryExist) [p | Just p <- [wanted], isForSeveral p]
+  case (clash, firstRepeated destinations, noFolder) of
+    (Just path, _, _) -> failWith reporter name (OverwritesProgram (Text.pack path))
+    (Nothing, Just path, _) -> failWith reporter name (OneForSeveral (Text.pack path))
+    (Nothing, Nothing, path : _) ->
+      failWith reporter name (NoFolder (Text.pack path) (length tapes))
+    (Nothing, Nothing, []) ->
+      writeAll reporter (zip destinations (map (bytesOf . content) tapes))
   where
     bytesOf (Tape bytes) = bytes
+    isForSeveral path = path /= "-" && length tapes > 1
 
 -- | The path of a tape; @-@ is standard output. @file@ is the path of the program,
 -- @wanted@ the output path of the command line, and @count@ the count of all tapes. Without an

@@ -174,6 +174,19 @@ spec = do
         code' `shouldBe` ExitFailure 1
         err' `shouldSatisfy` isInfixOf "error[E0811]"
         listDirectory folder >>= (`shouldMatchList` ["flange.part", "same.machine"])
+    it "asks for a folder for several tapes (catches a tape as the name of a folder)" $
+      inFolder $ \folder -> do
+        copyFlange folder
+        (code, out, err) <-
+          partc
+            ( ["compile", "-t", "iso6983", "-t", "lkp-01f"]
+                <> [folder </> "flange.part", "-o", folder </> "x"]
+            )
+        (code, out) `shouldBe` (ExitFailure 1, "")
+        err `shouldSatisfy` isInfixOf "error[E0802]"
+        err `shouldSatisfy` isInfixOf "this is no folder"
+        err `shouldSatisfy` isInfixOf "2 files"
+        listDirectory folder `shouldReturn` ["flange.part"]
     it "finds machines by name, and descriptions by their file, in quotation marks" $
       inFolder $ \folder -> do
         (_, description, _) <- partc ["machines", "iso6983", "--text"]
