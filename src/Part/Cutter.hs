@@ -5,10 +5,11 @@ module Part.Cutter
     ToolBody (..),
     plainBody,
     HolderCylinder (..),
+    radiusAbove,
   )
 where
 
-import Base.Quantity (Mm, Rad)
+import Base.Quantity (Mm (..), Rad (..), plus, times)
 import Base.Region (Region)
 
 -- | A tool: its kind, and the radius at which it touches the part.
@@ -48,6 +49,16 @@ plainBody = ToolBody Nothing Nothing [] Nothing
 -- | A cylinder of a holder, and the height of its lower end above the tip of the tool.
 data HolderCylinder = HolderCylinder {holderRadius :: Mm, aboveTip :: Mm}
   deriving stock (Eq, Show)
+
+-- | The radius of a tool at a height above its tip. The flank of a cone and that of a V-bit widen
+-- upwards, that of a V-bit up to the radius of its top.
+radiusAbove :: Mm -> Cutter -> Mm
+radiusAbove height c = case (kind c, pointAngle (body c)) of
+  (ConeCutter, Just angle) -> onFlank angle
+  (VBitCutter, Just angle) -> min (cutterRadius c) (onFlank angle)
+  _ -> cutterRadius c
+  where
+    onFlank (Rad a) = plus (tipRadius c) (times (tan (a / 2)) height)
 
 -- | The kind of a tool.
 data CutterKind

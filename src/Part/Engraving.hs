@@ -7,7 +7,7 @@ where
 
 import Base.Crash (bug)
 import Base.Name (Name (..))
-import Base.Quantity (Mm (..), Rad (..), times)
+import Base.Quantity (Mm (..), Rad (..), minus, times)
 import Base.Region (Located (..), Region (..))
 import Checked.Syntax qualified as Checked
 import Control.Monad (when)
@@ -25,6 +25,7 @@ import Geometry.Polyarc qualified as Polyarc
 import Geometry.Tolerance qualified as Tolerance
 import Geometry.Vec (Point)
 import Geometry.Vec qualified as Vec
+import Part.Cutter (radiusAbove)
 import Part.EngravingError (CircleMisfit (..), EngravingMistake (..))
 import Part.Error (CutterStatement (EngraveStatement), Error (..), ValueFact (InEngraving))
 import Part.Evaluation (Eval)
@@ -58,7 +59,12 @@ engraving context at text settings = do
   sequence <$> traverse (milled (Located (region (Checked.engraved text)) On)) contours
   where
     env = environment context
-    milled side c = Machining.millingOf context Milled at settings c side
+    milled side c = fmap (fmap grooved) (Machining.millingOf context Milled at settings c side)
+    -- The part is nowhere nearer to the axis of the tool than the edges of the groove, which are at
+    -- the top of the part.
+    grooved m = case cutter context of
+      Just tool -> m {radius = radiusAbove (minus (Mm 0) (minimum (Mm 0 : levels m))) tool}
+      Nothing -> m
 
 -- | The letters of a text with their names. Fails if a character has no letter, or if there is
 -- nothing but spaces.

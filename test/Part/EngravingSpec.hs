@@ -42,6 +42,23 @@ spec = modifyMaxSuccess (const 60) $ do
       case Result.ifSound (Compile.analyse [] (loaded s)) of
         Just Analysis {path} -> lettersOf path === cutLetters content
         Nothing -> counterexample (Text.unpack s) (property False)
+  prop "a conical tool may be as near to an edge as its groove is wide (catches the whole tool)" $
+    forAll groove $ \g ->
+      forAll ((,) <$> elements [True, False] <*> choose (0.03, 0.5)) $ \(isFree, gap) ->
+        let away = halfWidth g + (if isFree then gap else -min gap (halfWidth g))
+            text = besideEdge g away
+            program = loadedWith (tool g) text
+            outcome = Compile.compile (Machines.jobFor Machines.iso6983 []) program
+            proofs = map (fmap Proof.isProven . proof) <$> Result.ifSound outcome
+         in counterexample (Text.unpack text) $
+              counterexample (show (map Report.title (Result.errors outcome))) $
+                if isFree
+                  then proofs === Just [Just True]
+                  else
+                    counterexample "the groove cuts the edge" $
+                      any
+                        (("this move cuts into the part" `Text.isPrefixOf`) . Report.title)
+                        (Result.errors outcome)
   where
     machines :: [Machine]
     machines = [Machines.iso6983, Machines.named "linuxcnc-mill", Machines.lkp01f]
@@ -77,16 +94,65 @@ statement most = do
     coordinate = number <$> choose (1, 300)
     written = filter (/= '"') (Map.keys BuiltIn.letters)
 
+-- | A conical tool and the depth of its groove. Lengths are in mm.
+data Groove = Groove
+  { tool :: Text,
+    deep :: Double,
+    -- | half of the width at the top of the part
+    halfWidth :: Double
+  }
+  deriving stock (Show)
+
+-- | A random groove of a V-bit or a cone. That of a V-bit may be deeper than its flank.
+groove :: Gen Groove
+groove = do
+  narrow <- hundredths (0, 100)
+  half <- fromIntegral <$> chooseInt (10, 60)
+  deep <- hundredths (20, 200)
+  wide <- hundredths (150, 1200)
+  let flank = narrow / 2 + deep * tan (half * pi / 180)
+  elements
+    [ Groove {tool = bit (2 * half) narrow wide, deep, halfWidth = min (wide / 2) flank},
+      Groove {tool = cone (narrow + 1) half, deep, halfWidth = flank + 0.5}
+    ]
+  where
+    hundredths range = (/ 100) . fromIntegral <$> chooseInt range
+    bit angle narrow wide =
+      Text.concat
+        ["vbit(angle ", number angle, ", tip ", number narrow, ", diameter ", number wide, ")"]
+    cone narrow half =
+      "cone(diameter " <> number narrow <> ", bevel " <> number half <> ", height 0.1)"
+    number = Decimal.short 2
+
+-- | Statements that engrave an upright stroke to the right of the left edge of a part, and mill
+-- this edge with another tool.
+besideEdge :: Groove -> Double -> Text
+besideEdge g away =
+  Text.unlines
+    [ "engrave \"|\" at (" <> number away <> ", 40) height 8 align centre {",
+      "  depth " <> number (deep g),
+      "}",
+      "change 2 mill(diameter 3)",
+      "contour edge closed { (0, 0) (0, 100) (100, 100) (100, 0) }",
+      "mill edge outside { depth 3 }"
+    ]
+  where
+    number = Decimal.short 6
+
 -- | A program with this statement.
 loaded :: Text -> LoadedProgram
-loaded s =
+loaded = loadedWith "mill(diameter 0.5)"
+
+-- | A program with this first tool and these statements.
+loadedWith :: Text -> Text -> LoadedProgram
+loadedWith first s =
   runIdentity (LoadedProgram.load nothing "t.part" whole)
   where
     nothing = Import.byName (const (pure (Left "it imports nothing")))
     whole =
       Text.unlines
         [ "part t",
-          "tool 1 mill(diameter 0.5)",
+          "tool 1 " <> first,
           "feed 60",
           "tolerance 0.01",
           "clearance 2",
