@@ -27,9 +27,9 @@ spec = do
         let -- Circles about two centres, the larger ones around the smaller ones, and small circles
             -- in corners of the boxes of the larger ones.
             circles =
-              [ (place :: Int, Entity k "CIRCLE" "" [] [] (FullCircle around))
+              [ (place :: Int, Entity k "CIRCLE" "" [] [] (FullCircle ring))
                 | (k, place) <- zip [1 ..] places,
-                  let around = Circle (centre place) (Mm (5 * fromIntegral k))
+                  let ring = Circle (centre place) (Mm (5 * fromIntegral k))
               ]
             inCorner =
               [ Entity 7 "CIRCLE" "" [] [] (FullCircle (Circle (Vec.point (x + 23) 23) (Mm 1)))

@@ -139,16 +139,16 @@ circleOf line = case line of
 footOf :: Double -> Letter -> [Polyarc] -> Point
 footOf h l laid = Vec.shift (turned (Vec.to a foot)) a'
   where
-    a : others = pointsOf (strokes l)
-    a' : others' = pointsOf laid
-    (b, b') = head' [(q, q') | (q, q') <- zip others others', Vec.norm (Vec.to a q) > 0.01]
+    pairs = zip (pointsOf (strokes l)) (pointsOf laid)
+    (a, a') = first pairs
+    (b, b') = first ([(q, q') | (q, q') <- pairs, Vec.norm (Vec.to a q) > 0.01] <> pairs)
     Rad turn = Vec.angle (Vec.to a b)
     Rad turn' = Vec.angle (Vec.to a' b')
     turned v = Vec.scale h (Vec.rotate (Rad (turn' - turn)) v)
     foot = let Mm w = width l in Vec.point (w / 2) 0
-    head' found = case found of
-      q : _ -> q
-      [] -> (a, a')
+    first found = case found of
+      pair : _ -> pair
+      [] -> error "a letter without strokes"
 
 -- | The point at a distance along a line through @p@, and beside it to the left.
 alongLine :: Point -> Rad -> Mm -> Double -> Point

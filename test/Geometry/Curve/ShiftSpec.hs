@@ -183,7 +183,7 @@ spec = do
                             && d >= h - 1e-6
                             && d <= farthest
                in isNothing (Curve.firstCusp lower) && sharpest < 0.3
-                    ==> conjoin [law k | k <- [LeftOf, RightOf], isNothing (Curve.firstCusp (by k))]
+                    ==> conjoin [law s | s <- [LeftOf, RightOf], isNothing (Curve.firstCusp (by s))]
     it "that grows between two points has corners there (catches a curve without breaks there)" $
       property $
         forAll Generate.gentle $ \c ->
