@@ -206,6 +206,7 @@ job c =
       Part.side = here (case side c of LeftOf -> Part.LeftSide; RightOf -> Part.RightSide),
       Part.radius = radius c,
       Part.gear = Nothing,
+      Part.engraver = Nothing,
       Part.places = noPlaces,
       Part.tolerance = Part.OnPath (Mm 0.02),
       Part.feed = here (PerMinute (Feed 60)),

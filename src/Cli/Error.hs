@@ -108,7 +108,7 @@ toReport err = case err of
   CannotRead why -> wrong "E0801" InFile ("the file cannot be read: " <> why)
   CannotWrite path why -> wrong "E0802" InFile ("cannot write " <> path <> ": " <> why)
   NoFolder path count ->
-    (wrong "E0802" InFile ("cannot write into " <> path <> ": this is no folder"))
+    (wrong "E0802" InFile ("cannot write into " <> path <> ": there is no such folder"))
       { hints =
           [ "There are " <> Decimal.whole count
               <> " files, one for each tool or machine: name an \

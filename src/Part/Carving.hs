@@ -2,6 +2,7 @@
 -- region at the top of the part.
 module Part.Carving
   ( carving,
+    checkDepth,
   )
 where
 
@@ -75,11 +76,13 @@ carving context at e settings = do
   where
     env = environment context
 
--- | Fails if a depth is larger than the height of the flank of a tool. @at@ is the region of the
--- depth.
+-- | Fails if a depth is larger than the height of the flank of a conical tool. @at@ is the region
+-- of the depth.
 checkDepth :: Region -> Mm -> Cutter -> Eval ()
 checkDepth at deep tool =
-  when (minus deep flank > Tolerance.coincident) (mistake (DeeperThanFlank at deep flank))
+  when
+    (flank > Mm 0 && minus deep flank > Tolerance.coincident)
+    (mistake (DeeperThanFlank at deep flank))
   where
     flank = CutterBody.flankHeight tool
 

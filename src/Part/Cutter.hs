@@ -50,15 +50,14 @@ plainBody = ToolBody Nothing Nothing [] Nothing
 data HolderCylinder = HolderCylinder {holderRadius :: Mm, aboveTip :: Mm}
   deriving stock (Eq, Show)
 
--- | The radius of a tool at a height above its tip. The flank of a cone and that of a V-bit widen
--- upwards, that of a V-bit up to the radius of its top.
+-- | The radius of a tool at a height above its tip, which is not negative. The flank of a V-bit
+-- widens upwards, up to the radius of its top. All other tools count as wide as where they touch
+-- the part.
 radiusAbove :: Mm -> Cutter -> Mm
 radiusAbove height c = case (kind c, pointAngle (body c)) of
-  (ConeCutter, Just angle) -> onFlank angle
-  (VBitCutter, Just angle) -> min (cutterRadius c) (onFlank angle)
+  (VBitCutter, Just (Rad a)) ->
+    min (cutterRadius c) (plus (tipRadius c) (times (tan (a / 2)) (max (Mm 0) height)))
   _ -> cutterRadius c
-  where
-    onFlank (Rad a) = plus (tipRadius c) (times (tan (a / 2)) height)
 
 -- | The kind of a tool.
 data CutterKind

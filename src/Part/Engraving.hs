@@ -7,12 +7,12 @@ where
 
 import Base.Crash (bug)
 import Base.Name (Name (..))
-import Base.Quantity (Mm (..), Rad (..), minus, times)
+import Base.Quantity (Mm (..), Rad (..), times)
 import Base.Region (Located (..), Region (..))
 import Checked.Syntax qualified as Checked
 import Control.Monad (when)
+import Data.Foldable (for_)
 import Data.Map.Strict qualified as Map
-import Data.Maybe (isNothing)
 import Data.Text (Text)
 import Data.Text qualified as Text
 import Font.BuiltIn qualified as BuiltIn
@@ -25,7 +25,7 @@ import Geometry.Polyarc qualified as Polyarc
 import Geometry.Tolerance qualified as Tolerance
 import Geometry.Vec (Point)
 import Geometry.Vec qualified as Vec
-import Part.Cutter (radiusAbove)
+import Part.Carving qualified as Carving
 import Part.EngravingError (CircleMisfit (..), EngravingMistake (..))
 import Part.Error (CutterStatement (EngraveStatement), Error (..), ValueFact (InEngraving))
 import Part.Evaluation (Eval)
@@ -49,22 +49,20 @@ engraving context at text settings = do
   size <- lengthOf env Parameter.TextHeight (Checked.capitalHeight text)
   point <- Expression.point <$> Expression.evaluate env (Checked.anchor text)
   line <- baseLineOf env (region (Checked.anchor text)) point (Checked.textLine text)
-  when (isNothing (Checked.depth settings)) (mistake (NoDepth (region (Checked.engraved text))))
+  depthAt <-
+    maybe (mistake (NoDepth (region (Checked.engraved text)))) (pure . fst) (Checked.depth settings)
+  deep <- lengthOf env Parameter.Depth depthAt
+  for_ (cutter context) (Carving.checkDepth (region depthAt) deep)
   checkRoom text line size (map snd letters)
   let laid = Lettering.layout line size (shareOf (Checked.textAlignment text)) (map snd letters)
       strokesOf = Lettering.inOrder point laid
       contours =
         [contourOf name s | ((name, _), ss) <- zip letters strokesOf, s <- ss]
   Evaluation.spend at (sum (map (length . elements) contours))
-  sequence <$> traverse (milled (Located (region (Checked.engraved text)) On)) contours
+  let side = Located (region (Checked.engraved text)) On
+  sequence <$> traverse (\c -> Machining.millingOf context Engraved at settings c side) contours
   where
     env = environment context
-    milled side c = fmap (fmap grooved) (Machining.millingOf context Milled at settings c side)
-    -- The part is nowhere nearer to the axis of the tool than the edges of the groove, which are at
-    -- the top of the part.
-    grooved m = case cutter context of
-      Just tool -> m {radius = radiusAbove (minus (Mm 0) (minimum (Mm 0 : levels m))) tool}
-      Nothing -> m
 
 -- | The letters of a text with their names. Fails if a character has no letter, or if there is
 -- nothing but spaces.

@@ -90,6 +90,7 @@ milling context work at e side settings = do
   v <- outlineOf (environment context) e
   case work of
     Milled -> checkCutter context at MillStatement
+    Engraved -> checkCutter context at EngraveStatement
     Turned -> checkCutter context at TurnStatement
   case v of
     RegionValue r -> do
@@ -193,6 +194,7 @@ assembled context work at side settings passes = do
         side,
         radius = cutterRadius tool,
         gear = case kind tool of BladeCutter wheel -> Just wheel; _ -> Nothing,
+        engraver = if kind tool == VBitCutter then Just tool else Nothing,
         tolerance,
         places = placesOf at tool accuracy settings,
         feed,

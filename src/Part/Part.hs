@@ -18,6 +18,7 @@ module Part.Part
     AssertedSize (..),
     Operation (..),
     Milling (..),
+    radiusAtTop,
     MillingPlaces (..),
     RestPolicy (..),
     Descent (..),
@@ -103,6 +104,7 @@ import Part.Cutter
     HolderCylinder (..),
     ToolBody (..),
     plainBody,
+    radiusAbove,
   )
 
 -- | An evaluated program.
@@ -167,6 +169,10 @@ data Operation
   | Command (Located Command)
   deriving stock (Eq, Show)
 
+-- | The radius of a tool at the top of the part while its tip is at a height.
+radiusAtTop :: Mm -> Milling -> Mm
+radiusAtTop tip m = maybe (radius m) (radiusAbove (times (-1) tip)) (engraver m)
+
 -- | The milling or turning of a contour.
 data Milling = Milling
   { contour :: Contour,
@@ -178,6 +184,8 @@ data Milling = Milling
     radius :: Mm,
     -- | the diameter of the wheel that swivels the blade; absent for other tools
     gear :: Maybe Mm,
+    -- | the V-bit that engraves, whose radius depends on the height
+    engraver :: Maybe Cutter,
     tolerance :: Accuracy,
     feed :: Located CutFeed,
     approach :: [Stop],
@@ -334,7 +342,11 @@ data Roughing = Roughing
   deriving stock (Eq, Show)
 
 -- | The kind of machining along a contour.
-data Work = Milled | Turned
+data Work
+  = Milled
+  | -- | the milling of a stroke of a text
+    Engraved
+  | Turned
   deriving stock (Eq, Ord, Show)
 
 -- | The allowed chord error of a milling or turning.

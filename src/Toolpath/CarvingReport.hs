@@ -1,11 +1,13 @@
 {-# OPTIONS_GHC -O0 -fno-ignore-interface-pragmas #-}
 
--- | Reports on material that the tip of a V-carving leaves because it is too wide.
+-- | Reports on V-carvings: material that a tip leaves because it is too wide, floors that stay, and
+-- contours across which a tip goes.
 module Toolpath.CarvingReport
   ( nowhere,
     refused,
     allowed,
     floorStays,
+    across,
   )
 where
 
@@ -13,8 +15,9 @@ import Base.Decimal qualified as Decimal
 import Base.Quantity (LengthUnit, Mm (..), times)
 import Base.Region (Region)
 import Data.Text (Text)
+import Geometry.Vec (Point)
 import Geometry.Vec qualified as Vec
-import Report.Report (Report (..), ReportPlace (InSource), at, report)
+import Report.Report (Label (Label), Report (..), ReportPlace (InSource), at, report)
 import Report.Report qualified as Report
 import Toolpath.CarvingFloor (Floor (..))
 import Toolpath.Toolpath (CarvingRest (..))
@@ -59,6 +62,17 @@ floorStays unit (Floor region p) =
           \sign step 1 { rest allowed }.",
           "Or carve deeper, up to the height of the flank."
         ]
+    }
+
+-- | The report that a V-carving goes across an element of a contour, which has a region and a text,
+-- and where its axis then is.
+across :: LengthUnit -> Region -> (Region, Text) -> Point -> Report
+across unit region (crossed, element) p =
+  (at region "E0406" "this V-carving goes across a contour that another statement mills")
+    { Report.label = "carved here",
+      others = [Label crossed ("it goes across " <> element)],
+      message = ["The tip is then at " <> Vec.toText unit 3 p <> "."],
+      hints = ["Move the region, or make it smaller, so that it stays on one side of the contour."]
     }
 
 places :: CarvingRest -> Text

@@ -248,7 +248,7 @@ allMoves p swivels way cut ends =
 
 -- | The region of the first word of the pass's statement.
 wordOf :: CuttingPass -> Region
-wordOf = keyword . region . milled
+wordOf p = let Located at milling = milled p in keyword milling at
 
 -- | The heights at the start and at the end of each move of a pass without a blade. Both are the
 -- height of the pass.

@@ -27,7 +27,14 @@ import Geometry.Segment qualified as Segment
 import Geometry.Tolerance qualified as Geometry
 import Geometry.Vec (Point)
 import Geometry.Vec qualified as Vec
-import Part.Part (Contour (contourName), Element (..), Ends (..), MillingPlaces, Side (..))
+import Part.Part
+  ( Contour (contourName),
+    Element (..),
+    Ends (..),
+    MillingPlaces,
+    Side (..),
+    Work (Engraved),
+  )
 import Report.Fix qualified as Fix
 import Report.Report (Label (..), Report (..), at)
 import Toolpath.CarvingReport qualified as CarvingReport
@@ -79,10 +86,13 @@ data Error
     CarvingLeaves Region CarvingRest Mm
   | -- | a hole that cuts into a contour
     HoleCuts HoleCut
-  | -- | milling one contour cuts into another: the statement, the region of the element along which
-    -- the cutter moves, the element that is cut, the depth of the cut, the position of the centre.
-    -- In a pocket the second region is that of the statement, too
-    MillsAnother Region Region Element Mm Point
+  | -- | a V-carving whose tip goes across a contour: the statement, the element, the position of
+    -- the tool's axis
+    CarvesAcross Region Element Point
+  | -- | milling one contour cuts into another: the kind of work, the statement, the region of the
+    -- element along which the cutter moves, the element that is cut, the depth of the cut, the
+    -- position of the centre. In a pocket the second region is that of the statement, too
+    MillsAnother Work Region Region Element Mm Point
   | -- | milling on a contour that another statement mills on one of its sides: the statement, the
     -- region of @on@, the element, the depth of the cut, the ends of the contour
     MillsItself Region Region Element Mm Ends
@@ -289,20 +299,27 @@ toReport unit err = case err of
             side
             (if ends == Closed then [Inside, Outside] else [LeftSide, RightSide])
       }
-  MillsAnother region milled element depth p ->
+  CarvesAcross region element p ->
+    CarvingReport.across unit region (origin element, shape unit element) p
+  MillsAnother kind region milled element depth p ->
     ( at
         region
         "E0406"
-        ( "milling this contour cuts into another one by "
+        ( (if kind == Engraved then "engraving" else "milling")
+            <> " this contour cuts into another one by "
             <> Decimal.inUnit unit depth
         )
     )
-      { label = "milled here",
+      { label = (if kind == Engraved then "engraved here" else "milled here"),
         others =
           [Label milled "along this element" | milled /= region]
             <> [Label (origin element) ("it cuts " <> shape unit element)],
         message = ["The cutter's centre is then at " <> Vec.toText unit 3 p <> "."],
-        hints = ["Use a smaller cutter, or check the sides and the distance of the contours."]
+        hints =
+          [ if kind == Engraved
+              then "Move the text, make it smaller, or take a tool with a narrower groove."
+              else "Use a smaller cutter, or check the sides and the distance of the contours."
+          ]
       }
   CutsAir region z approach ->
     ( at

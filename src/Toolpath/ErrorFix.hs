@@ -41,8 +41,8 @@ sizeFixes unit tool largest =
   ]
   where
     largestText = case work tool of
-      Milled -> "Take the largest cutter that fits: diameter "
       Turned -> "Take the largest nose that fits: radius "
+      _ -> "Take the largest cutter that fits: diameter "
 
 -- | Fix that accepts the material that the tool does not reach.
 restFix :: MillingPlaces -> Fix

@@ -214,7 +214,7 @@ blocksOf State {number, toolRadius, at, carvedAreas} operation = case operation 
     possible region given
     milling <- withoutWrittenElements <$> oriented region given
     if null (Part.levels milling) && heightOf milling > Mm 0
-      then Left (CutsAir (keyword region) (heightOf milling) (lastHeight milling))
+      then Left (CutsAir (keyword milling region) (heightOf milling) (lastHeight milling))
       else do
         side <- leadingSide milling
         first (roundable milling given) $

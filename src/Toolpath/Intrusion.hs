@@ -32,7 +32,7 @@ import Geometry.Vec qualified as Vec
 import Geometry.WindingNumber qualified as WindingNumber
 import Offset.Tolerance qualified as Tolerance
 import Part.ContourElement qualified as ContourElement
-import Part.Part (Accuracy, Contour (elements), Milling (contour, radius, side), Side (..))
+import Part.Part (Accuracy, Contour (elements), Milling (contour, radius, side, work), Side (..))
 import Part.Part qualified as Part
 import Part.WallDepth qualified as WallDepth
 import Toolpath.Error (ContourBeginning (..), Error (..), Intrusion (..))
@@ -68,7 +68,7 @@ intrusions path = worst (concatMap (intrusionsOfBlock machined) (Toolpath.blocks
       WrongLink fault -> LinkingMoveError.place fault
       HoleCuts cut -> HoleReport.hole cut
       MillsItself at _ _ _ _ -> at
-      MillsAnother at _ _ _ _ -> at
+      MillsAnother _ at _ _ _ _ -> at
       _ -> Region 0 0
 
 -- | A sort key: minus the depth of an intrusion in mm, so that the deepest one is the least.
@@ -77,7 +77,7 @@ depth e = case e of
   CutsPart _ _ _ (Mm d) _ _ _ -> -d
   HoleCuts HoleCut {HoleReport.depth = Mm d} -> -d
   MillsItself _ _ _ (Mm d) _ -> -d
-  MillsAnother _ _ _ (Mm d) _ -> -d
+  MillsAnother _ _ _ _ (Mm d) _ -> -d
   _ -> 0
 
 -- | A tool, and the contours from which it has to keep its distance.
@@ -108,8 +108,15 @@ intrusionsOfBlock machined b = case b of
      in map
           (asHole d)
           (concat [found (plainIntruder (widthOf m)) {working = Just d} m | m <- ms])
-  -- The proof compares its moves with the region.
-  Carved {} -> []
+  -- The proof compares its moves with the region. Its flank may be over other contours.
+  Carved (Located at c) ms _ ->
+    take
+      1
+      [ CarvesAcross (LinkingMove.keyword 6 at) element p
+        | m <- NonEmpty.toList ms,
+          uncurry min (Toolpath.heights m) < Mm 0,
+          CutsPart _ _ element _ _ p _ <- found (plainIntruder (Part.carvingTip c)) m
+      ]
   Cutting {} -> intrusionsOfPass machined b
   Clearing {pocket = job@(Located _ p), pass, approach, cleared, retract} ->
     let clearing = plainIntruder (radius (Part.wall p))
@@ -120,7 +127,7 @@ intrusionsOfBlock machined b = case b of
           <> take
             1
             ( concatMap
-                (map (asMilling (LinkingMove.pocketKeyword job)) . found clearing)
+                (map (asMilling Part.Milled (LinkingMove.pocketKeyword job)) . found clearing)
                 (filter mayCut (NonEmpty.toList cleared))
             )
   where
@@ -178,32 +185,39 @@ intrusionsOfPass :: WallIndex -> Block -> [Error]
 intrusionsOfPass machined b = case b of
   Cutting {job = Located at milling, pass, approach = before, descent, cut, retract} ->
     let left = Just (number pass, minimum (Part.allowances milling))
-        linking = (plainIntruder (radius milling)) {leaving = left}
-        cutting = (plainIntruder (radius milling)) {own = Just (number pass)}
+        linking = foundBy milling (\tool -> (plainIntruder tool) {leaving = left})
+        cutting = foundBy milling (\tool -> (plainIntruder tool) {own = Just (number pass)})
         approach = before <> descent
         (ahead, onto) = splitAt (length approach - 1) approach
-        isClear = null . found linking
+        isClear = null . linking
+        word = keyword milling at
         links =
-          map (onItself milling (keyword at)) (concatMap (found linking) (ahead <> retract))
-            <> [ onItself milling (keyword at) e
+          map (onItself milling word) (concatMap linking (ahead <> retract))
+            <> [ onItself milling word e
                  | m <- onto,
-                   e <- map (beginning milling (Toolpath.reach pass) isClear m) (found linking m)
+                   e <- map (beginning milling (Toolpath.reach pass) isClear m) (linking m)
                ]
         along =
           mapMaybe (throughProfile milling) (approach <> retract)
             <> take
               1
               ( concatMap
-                  (map (asMilling (keyword at) . onItself milling (keyword at)) . found cutting)
+                  (map (asMilling (work milling) word . onItself milling word) . cutting)
                   (if isAlone (number pass) then [] else NonEmpty.toList cut)
               )
-     in case diagnosed (null . concatMap (found linking)) b links of
+     in case diagnosed (null . concatMap linking) b links of
           -- The other intrusions may follow from the wrong side.
           [e@(WrongLink OnOtherSide {})] -> [e]
-          found' -> found' <> along
+          found'
+            -- The program does not write the links of a text.
+            | work milling == Part.Engraved -> map (asMilling Part.Engraved word) found' <> along
+            | otherwise -> found' <> along
   _ -> []
   where
-    found = intrusionsOfMove machined
+    -- The tool is as wide as it is at the top of the part during the move.
+    foundBy milling intruder m =
+      let tip = uncurry min (Toolpath.heights m)
+       in intrusionsOfMove machined (intruder (Part.radiusAtTop tip milling)) m
     -- If no other statement has a contour, the cuts of statement @n@ need no check.
     isAlone n = all (== n) (Wall.statements machined)
 
@@ -226,9 +240,9 @@ diagnosed isClear b errors = case b of
 
 -- | The error of a cut along a contour: it names the element along which the cutter moves, instead
 -- of the move. @word@ is the region of the statement's first word.
-asMilling :: Region -> Error -> Error
-asMilling word e = case e of
-  CutsPart milled _ element deep _ p _ -> MillsAnother word milled element deep p
+asMilling :: Part.Work -> Region -> Error -> Error
+asMilling kind word e = case e of
+  CutsPart milled _ element deep _ p _ -> MillsAnother kind word milled element deep p
   _ -> e
 
 -- | The error of a cut into the contour on which a statement moves the cutter's centre. All other

@@ -72,12 +72,17 @@ possible region milling
           e <- list,
           lowest (Part.segment e) < -slack
       ] =
-    Left (BelowAxis (keyword region) e)
+    Left (BelowAxis (keyword milling region) e)
   | value (side milling) == On
       && ( any (> Mm 0) (Part.allowances milling)
              || any ((> Mm 0) . Part.allowance . Part.finish) list
          ) =
-    Left (AllowanceOnContour (keyword region) (Part.side milling) (Part.ends (contour milling)))
+    Left
+      ( AllowanceOnContour
+          (keyword milling region)
+          (Part.side milling)
+          (Part.ends (contour milling))
+      )
   | otherwise = Right ()
   where
     list = NonEmpty.toList (elements (contour milling))
@@ -101,7 +106,7 @@ oriented region milling = case Part.sense milling of
     let climbs = (sense == Part.Climb) == (Part.spindleSense milling == Part.Clockwise)
         wanted = if climbs then Carrier.LeftOf else Carrier.RightOf
     case now of
-      Nothing -> Left (SenseOnContour at (keyword region))
+      Nothing -> Left (SenseOnContour at (keyword milling region))
       Just side'
         | side' == wanted -> Right milling
         | value (side milling) `elem` [LeftSide, RightSide] ->
@@ -110,6 +115,9 @@ oriented region milling = case Part.sense milling of
   where
     region' (Located r _) = r
 
--- | Shortens the region of a statement to its keyword, @mill@ or @turn@.
-keyword :: Region -> Region
-keyword = LinkingMove.keyword 4
+-- | Shortens the region of the statement of a milling to its keyword.
+keyword :: Milling -> Region -> Region
+keyword milling = LinkingMove.keyword $ case Part.work milling of
+  Milled -> 4
+  Turned -> 4
+  Engraved -> 7

@@ -55,7 +55,7 @@ paths (Located region milling) side numbered allowance = case side of
       | Just requested <- Part.controlCompensation milling ->
         Left (NotForControl requested Unreached)
     (Left obstacle, Part.Allowed) -> case Equidistant.reachableFitting style s r polyarc of
-      ([], _) -> Left (NoPathAlong (keyword region) (contour milling) allowance)
+      ([], _) -> Left (NoPathAlong (keyword milling region) (contour milling) allowance)
       (_, []) -> Left (refusal obstacle)
       (p : ps, rests) -> Right (fmap Equidistant.pieces (p :| ps), rests)
     (Left obstacle, Part.Refused)

@@ -237,8 +237,8 @@ restPositionText unit tool s = case s of
 -- fits.
 fittingSize :: LengthUnit -> Tool -> Mm -> Text
 fittingSize unit tool r = case work tool of
-  Milled -> down (times 2 r)
   Turned -> down r
+  _ -> down (times 2 r)
   where
     down x = Decimal.inUnit unit (Decimal.roundedDown unit x)
 
@@ -248,13 +248,14 @@ cutter unit Tool {work, radius, leaves} =
   size <> (if leaves > Mm 0 then " that leaves " <> Decimal.inUnit unit leaves else "")
   where
     size = case work of
-      Milled -> "a cutter of diameter " <> Decimal.inUnit unit (times 2 radius)
       Turned -> "a nose of radius " <> Decimal.inUnit unit radius
+      _ -> "a cutter of diameter " <> Decimal.inUnit unit (times 2 radius)
 
 -- | The verb for the kind of work.
 workVerb :: Tool -> Text
 workVerb tool = case work tool of
   Milled -> "milled"
+  Engraved -> "engraved"
   Turned -> "turned"
 
 -- | The text for an element: a line with its ends, an arc or a whole circle with its radius and
@@ -286,12 +287,12 @@ inDegrees a = Decimal.short 3 (degrees (Rad a)) <> " deg"
 largestFit :: LengthUnit -> Tool -> Maybe Mm -> Text
 largestFit unit tool largest = case (work tool, largest) of
   (_, Nothing) -> "No cutter fits here, however small."
-  (Milled, Just r) ->
-    "The largest cutter that fits has a diameter of "
-      <> fittingSize unit tool r
-      <> "."
   (Turned, Just r) ->
     "The largest nose that fits has a radius of " <> fittingSize unit tool r
+      <> "."
+  (_, Just r) ->
+    "The largest cutter that fits has a diameter of "
+      <> fittingSize unit tool r
       <> "."
 
 -- | The label of the second element; empty if both elements come from the same region.

@@ -524,7 +524,11 @@ coreHolesIn facts@Facts {subject} =
 -- | Largest radius, and radius within which stock is surely removed, of a cutter in a motion. They
 -- differ only for conical cutters and blades.
 cuttingRadius, removingRadius :: Facts -> CutterMotion -> Cutter -> Mm
-cuttingRadius facts m c = max (radiusIn facts m c) (if isConical c then tipRadius c else Mm 0)
+cuttingRadius facts m c = max (radiusIn facts m c) $ case kind c of
+  -- The frames of a V-carving have the radius of the tip.
+  Part.VBitCutter -> cutterRadius c
+  _ | isConical c -> tipRadius c
+  _ -> Mm 0
 removingRadius facts m c
   | isConical c = min (radiusIn facts m c) (CutterBody.removalRadius c)
   | otherwise = radiusIn facts m c

@@ -48,6 +48,7 @@ import Geometry.Vec (Point)
 import Machine.Machine (Machine)
 import Machine.Machine qualified as Machine
 import Part.CutFeed qualified as CutFeed
+import Part.Cutter (radiusAbove)
 import Part.Part (SpacePoint (..))
 import Part.Part qualified as Part
 import Toolpath.Toolpath (Toolpath)
@@ -207,7 +208,7 @@ motionSetOf subject passes =
       MotionSet.isPlanned = not (Subject.isDifferent subject),
       MotionSet.toolOf,
       MotionSet.rimWorksOf =
-        RimWork.rimWorks (path subject) (map fst . SpindleCutter.cuttersOf subject . number),
+        RimWork.rimWorks (path subject) (map fst . cuttersOf . number),
       MotionSet.motions = motions subject,
       MotionSet.nearby
     }
@@ -221,7 +222,14 @@ motionSetOf subject passes =
             pass <- NonEmpty.toList (Pocket.passes pocket)
         ]
     otherLevels = map level passes <> map fst pocketLevels
-    toolOf = Subject.toolIn subject passes
+    -- A V-bit is as wide as it is at the top of the part during the motion.
+    toolOf m = case map (radiusAbove (times (-1) tip) . snd) (cuttersOf (number m)) of
+      [] -> radiusIn m
+      radii -> min (radiusIn m) (maximum radii)
+      where
+        tip = min (Motion.fromHeight m) (Motion.toHeight m)
+    cuttersOf = SpindleCutter.cuttersOf subject
+    radiusIn = Subject.toolIn subject passes
     nearby box
       | isAskedOnce = motions subject
       | otherwise = BoxTree.within (BoundingBox.inflate largestTool box) (motionIndex subject)

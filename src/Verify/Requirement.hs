@@ -50,7 +50,7 @@ cutterSide milling = case value (Part.side milling) of
       (Part.Open, Part.Turned)
         | Vec.x end >= Vec.x start -> Just Carrier.RightOf
         | otherwise -> Just Carrier.LeftOf
-      (Part.Open, Part.Milled) -> Nothing
+      (Part.Open, _) -> Nothing
     start = Segment.start (Part.segment (NonEmpty.head (Part.elements contour)))
     end = Segment.end (Part.segment (NonEmpty.last (Part.elements contour)))
 

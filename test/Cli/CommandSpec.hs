@@ -184,7 +184,7 @@ spec = do
             )
         (code, out) `shouldBe` (ExitFailure 1, "")
         err `shouldSatisfy` isInfixOf "error[E0802]"
-        err `shouldSatisfy` isInfixOf "this is no folder"
+        err `shouldSatisfy` isInfixOf "there is no such folder"
         err `shouldSatisfy` isInfixOf "2 files"
         listDirectory folder `shouldReturn` ["flange.part"]
     it "finds machines by name, and descriptions by their file, in quotation marks" $

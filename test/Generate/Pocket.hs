@@ -113,6 +113,7 @@ pocketing before p =
             Part.side = here Part.Inside,
             Part.radius = cutter p,
             Part.gear = Nothing,
+            Part.engraver = Nothing,
             Part.places = Generate.noPlaces,
             Part.tolerance = Part.OnPath (Mm 0.03),
             Part.feed = here (PerMinute (Feed 60)),

@@ -42,26 +42,35 @@ spec = modifyMaxSuccess (const 60) $ do
       case Result.ifSound (Compile.analyse [] (loaded s)) of
         Just Analysis {path} -> lettersOf path === cutLetters content
         Nothing -> counterexample (Text.unpack s) (property False)
-  prop "a conical tool may be as near to an edge as its groove is wide (catches the whole tool)" $
+  prop "a V-bit may be as near to an edge as its groove is wide (catches the whole tool)" $
     forAll groove $ \g ->
-      forAll ((,) <$> elements [True, False] <*> choose (0.03, 0.5)) $ \(isFree, gap) ->
-        let away = halfWidth g + (if isFree then gap else -min gap (halfWidth g))
-            text = besideEdge g away
-            program = loadedWith (tool g) text
-            outcome = Compile.compile (Machines.jobFor Machines.iso6983 []) program
-            proofs = map (fmap Proof.isProven . proof) <$> Result.ifSound outcome
-         in counterexample (Text.unpack text) $
-              counterexample (show (map Report.title (Result.errors outcome))) $
+      forAll ((,,) <$> elements [True, False] <*> choose (0.03, 0.5) <*> elements machines) $
+        \(isFree, gap, m) ->
+          let away = halfWidth g + (if isFree then gap else -min gap (halfWidth g))
+              program = loadedWith (tool g) (besideEdge g away)
+              outcome = Compile.compile (Machines.jobFor m []) program
+              proofs = map (fmap Proof.isProven . proof) <$> Result.ifSound outcome
+           in counterexample (show (g, away, map Report.title (Result.errors outcome))) $
                 if isFree
                   then proofs === Just [Just True]
-                  else
-                    counterexample "the groove cuts the edge" $
-                      any
-                        (("this move cuts into the part" `Text.isPrefixOf`) . Report.title)
-                        (Result.errors outcome)
+                  else counterexample "the groove cuts the edge" (isRefused outcome)
+  it "a V-bit that comes from below counts as wide as it then is (catches a cut into the part)" $
+    map (isRefused . deepStart) [-4, -2.2, -2, -0.5]
+      `shouldBe` [True, True, False, False]
   where
     machines :: [Machine]
     machines = [Machines.iso6983, Machines.named "linuxcnc-mill", Machines.lkp01f]
+    isRefused outcome =
+      any (("engraving this contour cuts into" `Text.isPrefixOf`) . Report.title) (Result.errors outcome)
+    -- The flank is 1.155 mm wider 2 mm above the tip, and the edge 1.25 mm away.
+    deepStart z =
+      Compile.compile
+        (Machines.jobFor Machines.iso6983 [])
+        ( loadedFrom
+            ("(-1.25, 40, " <> Decimal.short 1 z <> ")")
+            "vbit(angle 60, tip 0.1, diameter 6)"
+            (besideEdge (Groove "" 0.4 0.28) 5)
+        )
 
 -- | A text of at most @most@ letters, and a statement that engraves it.
 statement :: Int -> Gen (Text, Text)
@@ -94,7 +103,7 @@ statement most = do
     coordinate = number <$> choose (1, 300)
     written = filter (/= '"') (Map.keys BuiltIn.letters)
 
--- | A conical tool and the depth of its groove. Lengths are in mm.
+-- | A V-bit and the depth of its groove. Lengths are in mm.
 data Groove = Groove
   { tool :: Text,
     deep :: Double,
@@ -103,26 +112,19 @@ data Groove = Groove
   }
   deriving stock (Show)
 
--- | A random groove of a V-bit or a cone. That of a V-bit may be deeper than its flank.
+-- | A random groove, as deep as the flank is high or less.
 groove :: Gen Groove
 groove = do
   narrow <- hundredths (0, 100)
   half <- fromIntegral <$> chooseInt (10, 60)
   deep <- hundredths (20, 200)
-  wide <- hundredths (150, 1200)
-  let flank = narrow / 2 + deep * tan (half * pi / 180)
-  elements
-    [ Groove {tool = bit (2 * half) narrow wide, deep, halfWidth = min (wide / 2) flank},
-      Groove {tool = cone (narrow + 1) half, deep, halfWidth = flank + 0.5}
-    ]
+  higher <- hundredths (1, 500)
+  let halfWidth = narrow / 2 + deep * tan (half * pi / 180)
+      sizes = [2 * half, narrow, 2 * (halfWidth + higher)]
+      words' = zipWith (\word x -> word <> " " <> Decimal.short 2 x) ["angle", "tip", "diameter"] sizes
+  pure Groove {tool = "vbit(" <> Text.intercalate ", " words' <> ")", deep, halfWidth}
   where
     hundredths range = (/ 100) . fromIntegral <$> chooseInt range
-    bit angle narrow wide =
-      Text.concat
-        ["vbit(angle ", number angle, ", tip ", number narrow, ", diameter ", number wide, ")"]
-    cone narrow half =
-      "cone(diameter " <> number narrow <> ", bevel " <> number half <> ", height 0.1)"
-    number = Decimal.short 2
 
 -- | Statements that engrave an upright stroke to the right of the left edge of a part, and mill
 -- this edge with another tool.
@@ -130,9 +132,10 @@ besideEdge :: Groove -> Double -> Text
 besideEdge g away =
   Text.unlines
     [ "engrave \"|\" at (" <> number away <> ", 40) height 8 align centre {",
-      "  depth " <> number (deep g),
+      "  depth " <> number (deep g) <> " step " <> number (deep g / 2),
       "}",
       "change 2 mill(diameter 3)",
+      "spindle cw 900",
       "contour edge closed { (0, 0) (0, 100) (100, 100) (100, 0) }",
       "mill edge outside { depth 3 }"
     ]
@@ -145,7 +148,11 @@ loaded = loadedWith "mill(diameter 0.5)"
 
 -- | A program with this first tool and these statements.
 loadedWith :: Text -> Text -> LoadedProgram
-loadedWith first s =
+loadedWith = loadedFrom "(0, 0, 2)"
+
+-- | A program with this start, this first tool and these statements.
+loadedFrom :: Text -> Text -> Text -> LoadedProgram
+loadedFrom begin first s =
   runIdentity (LoadedProgram.load nothing "t.part" whole)
   where
     nothing = Import.byName (const (pure (Left "it imports nothing")))
@@ -156,7 +163,7 @@ loadedWith first s =
           "feed 60",
           "tolerance 0.01",
           "clearance 2",
-          "from (0, 0, 2)",
+          "from " <> begin,
           "work 54",
           "safe 20",
           "spindle cw 900",

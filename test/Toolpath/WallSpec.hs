@@ -101,7 +101,8 @@ unmarked e = case e of
   CutsPart at move element deep how p begins ->
     CutsPart at move (original element) deep how p begins
   HoleCuts cut -> HoleCuts cut {HoleReport.element = original (HoleReport.element cut)}
-  MillsAnother at along element deep p -> MillsAnother at (inText along) (original element) deep p
+  MillsAnother kind at along element deep p ->
+    MillsAnother kind at (inText along) (original element) deep p
   _ -> e
   where
     original element = element {origin = inText (origin element)}
