@@ -169,7 +169,9 @@ hints e = case fault e of
   Misplaced _ -> ["Save the drawing again; the file is damaged, or was edited by hand."]
   ValueMissing _ _ -> ["Save the drawing again; the file is damaged, or was edited by hand."]
   UnitMissing ->
-    ["State the unit: write unit mm or unit in after the file, or --unit for partc import."]
+    [ "State the unit: write unit mm or unit in after the file and the layer, or --unit for partc \
+      \import."
+    ]
   UnitUnknown _ -> ["Choose a unit of length for the drawing, and save it again."]
   UnitConflict _ _ -> ["Remove the unit from the program, or choose the right one in the file."]
   CodePageUnknown _ -> ["Save the drawing as DXF of 2007 or later, or name its layers in English."]

@@ -116,7 +116,10 @@ extent objects = case concatMap (boxes . form) objects of
       Outline _ _ _ pieces -> concatMap piece pieces
       Motion segment _ -> [BoundingBox.around segment]
       HoleMark (Circle p r) _ -> [BoundingBox.inflate r (BoundingBox.ofPoints p [])]
-      NodeMark _ p _ -> [BoundingBox.ofPoints p []]
+      -- A digit is at most 1.3 mm wide.
+      NodeMark k p _ ->
+        let wide = 0.5 + 1.3 * fromIntegral (length (show k))
+         in [BoundingBox.ofPoints p [Vec.shift (Vec.vec wide 2.5) p]]
     piece p = case p of
       Chain segments -> map BoundingBox.around (NonEmpty.toList segments)
       Smooth curves ->

@@ -200,7 +200,9 @@ cutterText :: LengthUnit -> Cutter -> Text
 cutterText unit cutter = case Part.kind cutter of
   Part.MillingCutter -> "mill, diameter " <> diameter <> bodyText
   Part.ConeCutter -> "cone, diameter " <> diameter
-  Part.VBitCutter -> "V-bit, diameter " <> diameter <> bodyText
+  Part.VBitCutter ->
+    let across = inUnit (times 2 (Part.tipRadius cutter))
+     in "V-bit, diameter " <> diameter <> ", tip " <> across <> bodyText
   Part.DovetailCutter -> "dovetail, diameter " <> diameter
   Part.BladeCutter _ -> "blade, diameter " <> diameter
   Part.DrillingCutter -> "drill, diameter " <> diameter <> bodyText

@@ -113,8 +113,8 @@ toReport fault = case fault of
     (at region "E0125" "this outline is not closed")
       { message = ["It leads from " <> place p <> " to " <> place q <> "."],
         hints =
-          [ "Close it in the drawing. If its ends nearly meet, state the gap after the file, as in \
-            \within 0.1."
+          [ "Close it in the drawing. If its ends nearly meet, state the gap at the end of the \
+            \statement, as in within 0.1."
           ]
       }
   BranchingOutline p (first :| more) ->
@@ -176,8 +176,8 @@ toReport fault = case fault of
               <> " mm high then."
           ],
         hints =
-          [ "State the unit of its numbers: write unit mm after the file, or --unit mm for partc \
-            \import."
+          [ "State the unit of its numbers: write unit mm at the end of the statement, or \
+            \--unit mm for partc import."
           ]
       }
   NearlyClosed a b gap p q ->
@@ -185,7 +185,8 @@ toReport fault = case fault of
       { others = [Label b "its other end" | a /= b],
         message = ["Its ends are " <> place p <> " and " <> place q <> "."],
         hints =
-          [ "To close it, write within " <> gapSize gap <> " mm after the file, or --within "
+          [ "To close it, write within " <> gapSize gap
+              <> " mm at the end of the statement, or --within "
               <> gapSize gap
               <> " for partc import."
           ]

@@ -248,8 +248,8 @@ details = describe "details" $ do
     ]
       `shouldBe` [ "Line 7: ‘" <> Text.replicate 40 "x" <> "…’ has to be a number.",
                    "The drawing is nested too deeply",
-                   "State the unit: write unit mm or unit in after the file, or --unit for partc \
-                   \import."
+                   "State the unit: write unit mm or unit in after the file and the layer, or \
+                   \--unit for partc import."
                  ]
   where
     line' (a, b) (c, d) = Plain (Straight (Vec.point a b) (Vec.point c d))
