@@ -310,7 +310,7 @@ toReport unit err = case err of
             <> Decimal.inUnit unit depth
         )
     )
-      { label = (if kind == Engraved then "engraved here" else "milled here"),
+      { label = if kind == Engraved then "engraved here" else "milled here",
         others =
           [Label milled "along this element" | milled /= region]
             <> [Label (origin element) ("it cuts " <> shape unit element)],

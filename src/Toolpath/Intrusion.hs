@@ -108,21 +108,13 @@ intrusionsOfBlock machined b = case b of
      in map
           (asHole d)
           (concat [found (plainIntruder (widthOf m)) {working = Just d} m | m <- ms])
-  -- The proof compares its moves with the region. Its flank may be over other contours.
-  Carved (Located at c) ms _ ->
-    take
-      1
-      [ CarvesAcross (LinkingMove.keyword 6 at) element p
-        | m <- NonEmpty.toList ms,
-          uncurry min (Toolpath.heights m) < Mm 0,
-          CutsPart _ _ element _ _ p _ <- found (plainIntruder (Part.carvingTip c)) m
-      ]
+  Carved (Located at c) ms _ -> intrusionsOfCarving machined at c (NonEmpty.toList ms)
   Cutting {} -> intrusionsOfPass machined b
   Clearing {pocket = job@(Located _ p), pass, approach, cleared, retract} ->
     let clearing = plainIntruder (radius (Part.wall p))
         left = Just (number pass, NonEmpty.last (Part.allowances (Part.wall p)))
         -- All contours end at the top of the part, down to which a surface may be faced.
-        mayCut m = isNothing (Part.surface p) || uncurry min (Toolpath.heights m) < Mm 0
+        mayCut m = isNothing (Part.surface p) || isBelowTop m
      in concatMap (found clearing {leaving = left}) (filter mayCut (approach <> retract))
           <> take
             1
@@ -144,6 +136,22 @@ intrusionsOfBlock machined b = case b of
               HoleReport.drilling = d
             }
       _ -> e
+
+-- | True for a move that goes below the top of the part.
+isBelowTop :: Move -> Bool
+isBelowTop m = uncurry min (Toolpath.heights m) < Mm 0
+
+-- | The intrusion of the tip of a V-carving. Its flank may be over other contours; the proof compares
+-- it with the carved region. @at@ is the region of the statement.
+intrusionsOfCarving :: WallIndex -> Region -> Part.Carving -> [Move] -> [Error]
+intrusionsOfCarving machined at c ms =
+  take
+    1
+    [ CarvesAcross (LinkingMove.keyword 6 at) element p
+      | m <- filter isBelowTop ms,
+        CutsPart _ _ element _ _ p _ <-
+          intrusionsOfMove machined (plainIntruder (Part.carvingTip c)) m
+    ]
 
 -- | The centre of the hole of a statement that is nearest to a point.
 nearestCentre :: Part.Drilling -> Vec.Point -> Vec.Point

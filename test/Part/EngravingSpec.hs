@@ -61,7 +61,10 @@ spec = modifyMaxSuccess (const 60) $ do
     machines :: [Machine]
     machines = [Machines.iso6983, Machines.named "linuxcnc-mill", Machines.lkp01f]
     isRefused outcome =
-      any (("engraving this contour cuts into" `Text.isPrefixOf`) . Report.title) (Result.errors outcome)
+      or
+        [ "engraving this contour cuts into" `Text.isPrefixOf` Report.title e
+          | e <- Result.errors outcome
+        ]
     -- The flank is 1.155 mm wider 2 mm above the tip, and the edge 1.25 mm away.
     deepStart z =
       Compile.compile
@@ -121,7 +124,8 @@ groove = do
   higher <- hundredths (1, 500)
   let halfWidth = narrow / 2 + deep * tan (half * pi / 180)
       sizes = [2 * half, narrow, 2 * (halfWidth + higher)]
-      words' = zipWith (\word x -> word <> " " <> Decimal.short 2 x) ["angle", "tip", "diameter"] sizes
+      given = zip ["angle ", "tip ", "diameter "] sizes
+      words' = [word <> Decimal.short 2 x | (word, x) <- given]
   pure Groove {tool = "vbit(" <> Text.intercalate ", " words' <> ")", deep, halfWidth}
   where
     hundredths range = (/ 100) . fromIntegral <$> chooseInt range
