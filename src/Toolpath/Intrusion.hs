@@ -54,9 +54,11 @@ import Toolpath.Wall qualified as Wall
 -- the contour. A region of the program may ask for several moves that intrude; it gets one error,
 -- for the deepest intrusion. Of the cuts in one pass, only the first one that intrudes counts.
 intrusions :: Toolpath -> [Error]
-intrusions path = worst (concatMap (intrusionsOfBlock machined) (Toolpath.blocks path))
+intrusions path = worst (concatMap (intrusionsOfBlock machined profiles) blocks)
   where
-    machined = Wall.index (Toolpath.blocks path)
+    blocks = Toolpath.blocks path
+    machined = Wall.index blocks
+    profiles = Wall.index [b | b@Cutting {} <- blocks]
     worst errors =
       map deepest (Map.elems (Map.fromListWith (flip (<>)) [(regionOf e, [e]) | e <- errors]))
     deepest errors = case minimumBy (comparing depth) errors of
@@ -98,9 +100,10 @@ data Intruder = Intruder
 plainIntruder :: Mm -> Intruder
 plainIntruder tool = Intruder {tool, own = Nothing, leaving = Nothing, working = Nothing}
 
--- | The intrusions of the moves of a block.
-intrusionsOfBlock :: WallIndex -> Block -> [Error]
-intrusionsOfBlock machined b = case b of
+-- | The intrusions of the moves of a block. The second index has the walls without those of
+-- pockets.
+intrusionsOfBlock :: WallIndex -> WallIndex -> Block -> [Error]
+intrusionsOfBlock machined profiles b = case b of
   Commanding _ -> []
   Travelling radius' _ ms -> concatMap (found (plainIntruder radius')) ms
   Holing (Located _ d) ms ->
@@ -108,7 +111,7 @@ intrusionsOfBlock machined b = case b of
      in map
           (asHole d)
           (concat [found (plainIntruder (widthOf m)) {working = Just d} m | m <- ms])
-  Carved (Located at c) ms _ -> intrusionsOfCarving machined at c (NonEmpty.toList ms)
+  Carved (Located at c) ms _ -> intrusionsOfCarving profiles at c (NonEmpty.toList ms)
   Cutting {} -> intrusionsOfPass machined b
   Clearing {pocket = job@(Located _ p), pass, approach, cleared, retract} ->
     let clearing = plainIntruder (radius (Part.wall p))
@@ -141,16 +144,17 @@ intrusionsOfBlock machined b = case b of
 isBelowTop :: Move -> Bool
 isBelowTop m = uncurry min (Toolpath.heights m) < Mm 0
 
--- | The intrusion of the tip of a V-carving. Its flank may be over other contours; the proof compares
--- it with the carved region. @at@ is the region of the statement.
+-- | The intrusion of the tip of a V-carving into a profile. Its flank may be over other contours;
+-- the proof compares it with the carved region. A pocket may have cleared a part of this region, so
+-- the walls of pockets do not count. @at@ is the region of the statement.
 intrusionsOfCarving :: WallIndex -> Region -> Part.Carving -> [Move] -> [Error]
-intrusionsOfCarving machined at c ms =
+intrusionsOfCarving profiles at c ms =
   take
     1
     [ CarvesAcross (LinkingMove.keyword 6 at) element p
       | m <- filter isBelowTop ms,
         CutsPart _ _ element _ _ p _ <-
-          intrusionsOfMove machined (plainIntruder (Part.carvingTip c)) m
+          intrusionsOfMove profiles (plainIntruder (Part.carvingTip c)) m
     ]
 
 -- | The centre of the hole of a statement that is nearest to a point.
