@@ -30,15 +30,21 @@ data Drawing = Drawing
     entities :: [Entity],
     -- | the things that were left out or changed, in the order of the file
     remarks :: [Remark],
-    -- | the size of an SVG drawing whose unit neither the file nor the program gives, so that a
-    -- pixel counts as 1\/96 in
+    -- | the size of a drawing whose unit may not be the one that is meant
     presumed :: Maybe PresumedSize
   }
   deriving stock (Eq, Show)
 
--- | The size in mm of the page, or of all that is drawn if there is no page, with the line of the
--- file at which the page begins.
-data PresumedSize = PresumedSize {sizeLine :: Int, width :: Mm, height :: Mm}
+-- | The size in mm of the page, or of all that is drawn if there is no page.
+data PresumedSize = PresumedSize
+  { -- | the line of the file at which the page begins, or that gives the unit
+    sizeLine :: Int,
+    -- | the unit of a DXF drawing that is very large. Nothing for an SVG drawing whose unit neither
+    -- the file nor the program gives, so that a pixel counts as 1\/96 in
+    largeUnit :: Maybe Text,
+    width :: Mm,
+    height :: Mm
+  }
   deriving stock (Eq, Show)
 
 -- | An entity of a drawing.

@@ -2,11 +2,13 @@
 module Drawing.DxfHeader
   ( encoding,
     millimetres,
+    largeUnit,
   )
 where
 
 import Base.Decimal qualified as Decimal
-import Base.Quantity (LengthUnit, millimetresIn)
+import Base.Quantity (LengthUnit, Mm (..), millimetresIn)
+import Control.Monad (join)
 import Data.List (find)
 import Data.Text (Text)
 import Data.Text.Encoding qualified as Encoding
@@ -15,6 +17,7 @@ import Drawing.CodePage qualified as CodePage
 import Drawing.DxfPair (Pair (..))
 import Drawing.Error (DrawingFault (..), Error (Error))
 import Drawing.Number qualified as Number
+import Drawing.Tolerance qualified as Tolerance
 
 -- | The encoding of the names in a file with this header.
 encoding :: [Pair] -> Encoding
@@ -37,6 +40,14 @@ millimetres stated header = case variable "$INSUNITS" header of
       _ -> Right size
   where
     withoutVariable line = maybe (Left (Error line UnitMissing)) (Right . millimetresIn) stated
+
+-- | The unit of the file, if one unit is longer than 'Tolerance.largeUnit': the line that gives it,
+-- and its name.
+largeUnit :: [Pair] -> Maybe (Int, Text)
+largeUnit header = do
+  pair@Pair {line} <- variable "$INSUNITS" header
+  (name, size) <- join (unitOf (latin pair))
+  if Mm size > Tolerance.largeUnit then Just (line + 1, name) else Nothing
 
 -- | The first pair of the value of a header variable.
 variable :: Text -> [Pair] -> Maybe Pair

@@ -27,6 +27,7 @@ import Drawing.Drawing
     Remark (..),
     RemarkKind (..),
   )
+import Drawing.EntityBoundingBox qualified as EntityBoundingBox
 import Drawing.Error (DrawingFault (..), Error (Error))
 import Drawing.SvgLength (Direction (..), Viewport (..))
 import Drawing.SvgLength qualified as SvgLength
@@ -71,8 +72,14 @@ fromSvg stated bytes = do
             then Nothing
             else
               let (width, height) =
-                    fromMaybe (SvgPage.extent (entities drawing)) (SvgPage.size ownPage)
-               in Just PresumedSize {sizeLine = XmlElement.line element, width, height}
+                    fromMaybe (EntityBoundingBox.extent (entities drawing)) (SvgPage.size ownPage)
+               in Just
+                    PresumedSize
+                      { sizeLine = XmlElement.line element,
+                        largeUnit = Nothing,
+                        width,
+                        height
+                      }
       }
 
 -- Nodes ---------------------------------------------------------------------------------------

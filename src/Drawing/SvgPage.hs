@@ -2,26 +2,19 @@
 module Drawing.SvgPage
   ( SvgPage (..),
     page,
-    extent,
   )
 where
 
 import Base.Decimal qualified as Decimal
 import Base.Quantity (LengthUnit, Mm (..), millimetresIn)
-import Data.List.NonEmpty qualified as NonEmpty
 import Data.Maybe (mapMaybe)
 import Drawing.AffineMap (AffineMap (..), after)
 import Drawing.AffineMap qualified as AffineMap
-import Drawing.Drawing (Entity (shape), PathPart (..), Shape (..))
 import Drawing.Error (DrawingFault (..), Error (Error))
-import Drawing.PathPart qualified as PathPart
 import Drawing.SvgLength (Direction (..), Viewport (..))
 import Drawing.SvgLength qualified as SvgLength
 import Drawing.XmlElement (XmlElement)
 import Drawing.XmlElement qualified as XmlElement
-import Geometry.Carrier (Circle (Circle))
-import Geometry.Index.BoundingBox (BoundingBox (..))
-import Geometry.Index.BoundingBox qualified as BoundingBox
 
 -- | A page.
 data SvgPage = SvgPage
@@ -78,18 +71,3 @@ page stated element = do
 -- | The length of a pixel in mm.
 pixel :: Double
 pixel = 25.4 / 96
-
--- | The width and the height in mm of the area that some entities take; 0 if there are none.
-extent :: [Entity] -> (Mm, Mm)
-extent entities = case concatMap (boxes . shape) entities of
-  [] -> (Mm 0, Mm 0)
-  b : more ->
-    let BoundingBox left bottom right top = foldl BoundingBox.union b more
-     in (Mm (right - left), Mm (top - bottom))
-  where
-    boxes s = case s of
-      Path _ parts -> concatMap ofPart (NonEmpty.toList parts)
-      FullCircle (Circle c r) -> [BoundingBox.inflate r (BoundingBox.ofPoints c [])]
-      FullEllipse e -> ofPart (EllipseArc e 0 (2 * pi))
-      Dot p -> [BoundingBox.ofPoints p []]
-    ofPart = map BoundingBox.around . NonEmpty.toList . PathPart.segments

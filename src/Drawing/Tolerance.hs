@@ -10,6 +10,8 @@ module Drawing.Tolerance
     mostDigits,
     mostErrors,
     mostNameLength,
+    largeUnit,
+    largeDrawing,
 
     -- * Tolerances
     sameHeight,
@@ -57,6 +59,14 @@ mostErrors = 20
 -- | The largest count of characters of a wrong word that an error repeats.
 mostNameLength :: Int
 mostNameLength = 40
+
+-- | A drawing is suspected to have a wrong unit if its unit is longer than this, and its width or
+-- height larger than 'largeDrawing'. Some libraries write metres into each file.
+largeUnit :: Mm
+largeUnit = Mm 100
+
+largeDrawing :: Mm
+largeDrawing = Mm 10000
 
 -- | The largest difference of the heights of an entity's points that count as equal, in the unit of
 -- the file.

@@ -64,9 +64,10 @@ data DrawingMistake
     SameEntity Region Region
   | -- | a mistake in a text with outlines of a font
     InFont FontMistake
-  | -- | an SVG drawing whose unit nobody gives: the place of its page, the width and the height
-    -- with pixels of 1\/96 in
-    UnitPresumed Region Mm Mm
+  | -- | a drawing whose unit may not be the one that is meant: the place of its page or of its
+    -- unit, the unit if the file gives it, the width and the height with this unit, or with pixels
+    -- of 1\/96 in
+    UnitPresumed Region (Maybe Text) Mm Mm
   | -- | an open outline whose ends are near to each other: the entities at both ends, the distance
     -- of the ends, and the ends
     NearlyClosed Region Region Mm Point Point
@@ -169,7 +170,17 @@ toReport fault = case fault of
       { others = [Label original "the other one"]
       }
   InFont mistake -> FontError.toReport mistake
-  UnitPresumed region (Mm width) (Mm height) ->
+  UnitPresumed region (Just unit) width height ->
+    (warning region "W0104" ("the unit of this drawing is " <> unit <> ", and it is very large"))
+      { message =
+          [ "It is " <> length' width <> " wide and " <> length' height <> " high."
+          ],
+        hints =
+          [ "If its numbers are mm, save it with that unit: $INSUNITS is 4 for mm, and 1 for \
+            \inches."
+          ]
+      }
+  UnitPresumed region Nothing (Mm width) (Mm height) ->
     (warning region "W0104" "the drawing has no unit of length; a pixel counts as 1/96 in")
       { message =
           [ "It is " <> Decimal.short 2 width <> " mm wide and " <> Decimal.short 2 height

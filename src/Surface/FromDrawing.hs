@@ -98,7 +98,7 @@ fromBytes (Located at name) stated (begin, shown) content = case formatOf name o
       Right drawing ->
         ([], presumption drawing, Just DrawingText {drawing, regionOfLine})
     presumption drawing =
-      [UnitPresumed (regionOfLine n) w h | Just (PresumedSize n w h) <- [presumed drawing]]
+      [UnitPresumed (regionOfLine n) u w h | Just (PresumedSize n u w h) <- [presumed drawing]]
     bad e =
       BadDrawing
         (regionOfLine (FileError.line e))

@@ -114,6 +114,15 @@ units = describe "units" $ do
   it "refuses a unit of the program that is not that of the file" $
     faults (fromDxf (Just Inches) (withHeader ["9", "$INSUNITS", "70", "4"]))
       `shouldBe` [(8, UnitConflict "mm" "in")]
+  it "doubts a unit of metres or more if the drawing is very large (catches a part of 80 m)" $
+    map
+      (either (const Nothing) presumed . uncurry ofRadius)
+      [("6", "5.1"), ("6", "4.9"), ("4", "5100"), ("7", "0.0051")]
+      `shouldBe` [ Just (PresumedSize 8 (Just "m") (Mm 10200) (Mm 10200)),
+                   Nothing,
+                   Nothing,
+                   Just (PresumedSize 8 (Just "km") (Mm 10200) (Mm 10200))
+                 ]
   it "refuses the number of no unit" $
     faults (fromDxf Nothing (withHeader ["9", "$INSUNITS", "70", "77"]))
       `shouldBe` [(8, UnitUnknown "77")]
@@ -123,9 +132,11 @@ units = describe "units" $ do
       case fromDxf stated (withHeader ["9", "$INSUNITS", "70", shown number]) of
         Right Drawing {entities = [Entity {shape = FullCircle (Circle _ (Mm r))}]} -> Just r
         _ -> Nothing
-    withHeader variables =
+    withHeader variables = withCircle variables "1"
+    ofRadius number = fromDxf Nothing . withCircle ["9", "$INSUNITS", "70", number]
+    withCircle variables r =
       Bytes.unlines (["0", "SECTION", "2", "HEADER"] <> variables <> ["0", "ENDSEC"])
-        <> entitySection ["0", "CIRCLE", "10", "0", "20", "0", "40", "1"]
+        <> entitySection ["0", "CIRCLE", "10", "0", "20", "0", "40", r]
 
 refusals :: Spec
 refusals = describe "refuses" $ do

@@ -185,9 +185,9 @@ units = describe "units" $ do
     map
       (either (const Nothing) presumed . reading . withPage)
       ["width='96' height='48px'", "viewBox='0 0 960 96'", "", "width='9mm'"]
-      `shouldBe` [ Just (PresumedSize 1 (Mm 25.4) (Mm 12.7)),
-                   Just (PresumedSize 1 (Mm 254) (Mm 25.4)),
-                   Just (PresumedSize 1 (Mm (3 * pixel - pixel)) (Mm (2 * pixel))),
+      `shouldBe` [ Just (PresumedSize 1 Nothing (Mm 25.4) (Mm 12.7)),
+                   Just (PresumedSize 1 Nothing (Mm 254) (Mm 25.4)),
+                   Just (PresumedSize 1 Nothing (Mm (3 * pixel - pixel)) (Mm (2 * pixel))),
                    Nothing
                  ]
   where
