@@ -223,11 +223,12 @@ motionSetOf subject passes =
         ]
     otherLevels = map level passes <> map fst pocketLevels
     -- A V-bit is as wide as it is at the top of the part during the motion.
-    toolOf m = case map (radiusAbove (times (-1) tip) . snd) (cuttersOf (number m)) of
-      [] -> radiusIn m
-      radii -> min (radiusIn m) (maximum radii)
-      where
-        tip = min (Motion.fromHeight m) (Motion.toHeight m)
+    toolOf m = case map snd (cuttersOf (number m)) of
+      bits@(_ : _)
+        | all ((== Part.VBitCutter) . Part.kind) bits ->
+          let tip = min (Motion.fromHeight m) (Motion.toHeight m)
+           in min (radiusIn m) (maximum (map (radiusAbove (times (-1) tip)) bits))
+      _ -> radiusIn m
     cuttersOf = SpindleCutter.cuttersOf subject
     radiusIn = Subject.toolIn subject passes
     nearby box
