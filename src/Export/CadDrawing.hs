@@ -8,6 +8,8 @@ module Export.CadDrawing
     layerName,
     circleOf,
     extent,
+    letterGap,
+    letterHeight,
   )
 where
 
@@ -116,11 +118,20 @@ extent objects = case concatMap (boxes . form) objects of
       Outline _ _ _ pieces -> concatMap piece pieces
       Motion segment _ -> [BoundingBox.around segment]
       HoleMark (Circle p r) _ -> [BoundingBox.inflate r (BoundingBox.ofPoints p [])]
-      -- A digit is at most 1.3 mm wide.
+      -- A digit is at most two thirds as wide as it is high.
       NodeMark k p _ ->
-        let wide = 0.5 + 1.3 * fromIntegral (length (show k))
-         in [BoundingBox.ofPoints p [Vec.shift (Vec.vec wide 2.5) p]]
+        let width = letterHeight * 2 / 3 * fromIntegral (length (show k))
+            corner = Vec.vec (letterGap + width) (letterGap + letterHeight)
+         in [BoundingBox.ofPoints p [Vec.shift corner p]]
     piece p = case p of
       Chain segments -> map BoundingBox.around (NonEmpty.toList segments)
       Smooth curves ->
         [BoundingBox.ofPoints a [b, c, d] | CubicBezier a b c d <- NonEmpty.toList curves]
+
+-- | The distance of the number of a node from the node in x and in y, in mm.
+letterGap :: Double
+letterGap = 0.5
+
+-- | The height of the numbers of nodes, in mm.
+letterHeight :: Double
+letterHeight = 2

@@ -50,21 +50,14 @@ formOf scale form = case form of
   Motion segment heights -> [motion scale segment heights]
   HoleMark c@(Circle p _) bottom -> [circle scale c (Mm 0) (Mm 0), mark scale p bottom]
   NodeMark k p z ->
-    [mark scale p z, ("TEXT", number scale k (Vec.shift (Vec.vec letterGap letterGap) p) z)]
-
--- | The distance of the text of a node from the node in x and in y, in mm.
-letterGap :: Double
-letterGap = 0.5
-
--- | The height of the letters of nodes, in mm.
-letterHeight :: Double
-letterHeight = 2
+    let gap = Vec.vec CadDrawing.letterGap CadDrawing.letterGap
+     in [mark scale p z, ("TEXT", number scale k (Vec.shift gap p) z)]
 
 number :: Scale -> Int -> Point -> Mm -> [DxfGroup]
 number scale k p z =
   [word 100 "AcDbText"]
     <> at scale 10 p z
-    <> [real 40 (scale letterHeight), word 1 (Decimal.whole k), word 100 "AcDbText"]
+    <> [real 40 (scale CadDrawing.letterHeight), word 1 (Decimal.whole k), word 100 "AcDbText"]
 
 mark :: Scale -> Point -> Mm -> (Text, [DxfGroup])
 mark scale p z = ("POINT", word 100 "AcDbPoint" : at scale 10 p z)

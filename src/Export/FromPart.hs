@@ -10,7 +10,7 @@ import Base.Region (Located (..))
 import Data.Containers.ListUtils (nubOrd)
 import Data.List.NonEmpty (NonEmpty (..))
 import Data.List.NonEmpty qualified as NonEmpty
-import Data.Maybe (fromMaybe)
+import Data.Maybe (fromMaybe, isJust, isNothing)
 import Data.Semigroup (sconcat)
 import Draw.FromPart (isCut, isLastPass, sidedContours)
 import Export.CadDrawing
@@ -26,7 +26,7 @@ import Geometry.Segment qualified as Segment
 import Geometry.Vec qualified as Vec
 import Part.Part
   ( Contour (elements, ends),
-    Element (ofCurve, origin, replaced, segment),
+    Element (origin, replaced, segment),
     Part,
     Solid (..),
   )
@@ -70,9 +70,9 @@ piecesOf :: Contour -> NonEmpty OutlinePiece
 piecesOf c =
   merged (sconcat (fmap piecesOfRun (NonEmpty.groupBy1 isOneCurve (elements c))))
   where
-    isOneCurve a b = ofCurve a && ofCurve b && origin a == origin b
+    isOneCurve a b = isJust (replaced a) && isJust (replaced b) && origin a == origin b
     piecesOfRun run
-      | not (ofCurve (NonEmpty.head run)) = chain run :| []
+      | isNothing (replaced (NonEmpty.head run)) = chain run :| []
       | otherwise = case along run of
         Just piece -> piece :| []
         -- One region can have several curves, one after the other.

@@ -143,13 +143,13 @@ shape form = case form of
       Chain segments -> Segment.start (NonEmpty.head segments)
       Smooth curves -> Bezier.start (NonEmpty.head curves)
 
--- | The number of a node beside it, in letters of 2 mm.
+-- | The number of a node beside it.
 number :: Int -> Point -> Svg
 number k p =
   Svg.text_
-    ! Attribute.x (toValue (Coordinate.text (Vec.x p + 0.5)))
-    ! Attribute.y (toValue (Coordinate.text (-(Vec.y p) - 0.5)))
-    ! Attribute.fontSize "2"
+    ! Attribute.x (toValue (Coordinate.text (Vec.x p + CadDrawing.letterGap)))
+    ! Attribute.y (toValue (Coordinate.text (-(Vec.y p) - CadDrawing.letterGap)))
+    ! Attribute.fontSize (toValue (Coordinate.text CadDrawing.letterHeight))
     ! Attribute.fill (toValue (colour NodeLayer))
     ! Attribute.stroke "none"
     $ toSvg (Decimal.whole k)

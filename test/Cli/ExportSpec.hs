@@ -3,7 +3,7 @@ module Cli.ExportSpec (spec) where
 
 import Command (inFolder, partc)
 import Data.ByteString qualified as ByteString
-import Data.List (isInfixOf, isPrefixOf)
+import Data.List (isInfixOf, isPrefixOf, tails)
 import System.Directory (doesFileExist, listDirectory)
 import System.Exit (ExitCode (..))
 import System.FilePath ((</>))
@@ -21,6 +21,30 @@ spec = describe "drawings for CAD programs" $ do
     out `shouldSatisfy` ("  0\nSECTION\n" `isPrefixOf`)
     partc ["export", "-q", "examples/flange.part", "-o", "-"]
       `shouldReturn` (ExitSuccess, out, "")
+  it "show the numbers of all nodes on the page (catches a number that is cut off)" $
+    inFolder $ \folder -> do
+      writeFile (folder </> "p.part") . unlines $
+        [ "part p",
+          "tool mill(diameter 1)",
+          "feed 60",
+          "tolerance 0.01",
+          "from (-10, -10)",
+          "contour c closed { (0, 0) (0, 20) (20, 20) (20, 0) }",
+          "mill c outside { approach (-1, -1) }"
+        ]
+      (code, _, _) <- partc ["export", "-q", folder </> "p.part", "-o", folder </> "p.svg"]
+      code `shouldBe` ExitSuccess
+      svg <- readFile (folder </> "p.svg")
+      let page = map read (concatMap words (valuesOf "viewBox=" svg)) :: [Double]
+          texts = [l | l <- lines svg, "<text " `isInfixOf` l]
+          places = [map read (valuesOf " x=" l <> valuesOf " y=" l) | l <- texts]
+          -- A number with one digit is 2 mm high and not wider.
+          isOnPage place = case (page, place) of
+            ([left, top, width, height], [x, y]) ->
+              x >= left && x + 2 <= left + width && y - 2 >= top && y <= top + height
+            _ -> False
+      length places `shouldBe` 8
+      filter (not . isOnPage) places `shouldBe` []
   it "have splines for curves that move with their contours (catches arcs in their place)" $
     inFolder $ \folder -> do
       let kinds text = [k | ("  0", k) <- zip (lines text) (drop 1 (lines text))]
@@ -71,6 +95,11 @@ spec = describe "drawings for CAD programs" $ do
       code `shouldBe` ExitFailure 1
       doesFileExist (folder </> "p.dxf") `shouldReturn` False
   where
+    -- The first value of an attribute in a text, in quotation marks.
+    valuesOf attribute text =
+      [ takeWhile (/= '"') (drop (length attribute + 1) t)
+        | t <- take 1 (filter (attribute `isPrefixOf`) (tails text))
+      ]
     arch = "curve arch = bezier([(0, 0), (10, 20), (30, 25), (40, 0)])"
     written = "contour a open { arch }"
     exported folder name = partc ["export", "-q", "examples/flange.part", "-o", folder </> name]

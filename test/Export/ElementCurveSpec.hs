@@ -50,6 +50,12 @@ spec = describe "curves of elements" $ do
       let shift = Transformation.translation (Vec.vec 0.01 0.01)
           moved = fmap (Transformation.segment shift) (arcsOf exact)
        in isNothing (ElementCurve.along (replacing exact) moved)
+  it "are not evaluated where contours are compared (catches a comparison of curves)" $
+    forAll curve $ \exact ->
+      let unknown = error "the curve was evaluated"
+          c = contour exact
+          d = c {Part.elements = fmap (\e -> e {Part.replaced = Just unknown}) (Part.elements c)}
+       in d == d
   it "move with a contour (catches a curve that stays behind, or is not scaled)" $
     forAll curve $ \exact ->
       forAll Curves.similarity $ \s ->
